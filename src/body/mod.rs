@@ -1,0 +1,3 @@
+//! Mannequins from measurements: smooth, closed, with named landmarks.
+
+pub mod surface;

@@ -1,0 +1,3 @@
+//! Cloth and bodies to a drape: sewing, contact, gravity, rest.
+
+pub mod draped;

@@ -1,0 +1,1 @@
+//! Syntax to garment: names, modules, units, parameters, and the words of the language.

@@ -1,0 +1,1 @@
+//! Drape to files that other programs read.

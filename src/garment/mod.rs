@@ -1,0 +1,42 @@
+//! The evaluated model: what a text says, with every name resolved and every quantity in SI
+//! units (metres, radians, kilograms, seconds).
+//!
+//! A [`Garment`] is whatever can be sewn and draped: a garment on its wearer, or a scene of
+//! cloth and solids. Numbers of panels, bodies, solids and fabrics are positions in its lists.
+
+pub mod cloth;
+pub mod panel;
+pub mod sari;
+pub mod scene;
+pub mod seam;
+
+use crate::diagnostic::Span;
+use crate::textile::fabric::Fabric;
+use serde::{Deserialize, Serialize};
+
+/// Everything one drape needs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Garment {
+    /// Its name in the text.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Fabrics used by the panels.
+    pub fabrics: Vec<Fabric>,
+    /// Pieces of cloth; pairs and unfolded pieces are already copied.
+    pub panels: Vec<panel::Panel>,
+    /// What is sewn to what, darts included, in the order of sewing.
+    pub seams: Vec<seam::Seam>,
+    /// Wearers.
+    pub bodies: Vec<scene::BodyRequest>,
+    /// Balls, tables and the like.
+    pub solids: Vec<scene::Solid>,
+    /// Edges held to a body.
+    pub attachments: Vec<seam::Attachment>,
+    /// Edges and corners held in space or at a place of a body.
+    pub pins: Vec<seam::Pin>,
+    /// What the drape does, in order; never empty.
+    pub schedule: Vec<scene::Phase>,
+    /// Pictures asked for; may be empty.
+    pub pictures: Vec<scene::Picture>,
+}

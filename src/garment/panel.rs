@@ -1,0 +1,94 @@
+//! A piece of cloth: its outline as named edges, its fabric, where it begins.
+
+use super::cloth::Surface;
+use super::scene::Placement;
+use crate::diagnostic::Span;
+use kurbo::BezPath;
+use serde::{Deserialize, Serialize};
+
+/// A piece of cloth, cut and marked. The drawing plane has x to the right and y up, in metres,
+/// as the piece is seen from outside on the dressed body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Panel {
+    /// Its name, such as `front` or `sleeve.left`; no two panels of a garment share it.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Number of its fabric.
+    pub fabric: usize,
+    /// Angle from the drawing's +y to the warp, anticlockwise, rad.
+    pub grain: f64,
+    /// Side of a grid cell, m, where the text asks for one.
+    pub cell: Option<f64>,
+    /// Contact order: greater lies further from the skin.
+    pub layer: i32,
+    /// `loops[0]` is the outline, anticlockwise; the others are holes, clockwise. Darts are cut
+    /// out of the outline already: their legs are pieces of it.
+    pub loops: Vec<Loop>,
+    /// Edges by name. Names of copies carry their half: `left.side`.
+    pub edges: Vec<NamedEdge>,
+    /// Match marks on the outline, for the cutter.
+    pub notches: Vec<Notch>,
+    /// What is woven, knitted or printed where.
+    pub surface: Surface,
+    /// Where it begins.
+    pub placement: Placement,
+}
+
+/// A closed line. Piece `i` ends exactly where piece `i + 1` begins, the last where the first
+/// begins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Loop {
+    /// Its pieces in order; at least one.
+    pub pieces: Vec<Piece>,
+}
+
+/// A stretch of outline without a corner inside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Piece {
+    /// One `MoveTo`, then lines, quadratics and cubics; smooth inside, in the sense of its loop.
+    pub path: BezPath,
+    /// Its length, m.
+    pub length: f64,
+}
+
+/// A named edge: pieces one after the other, in the direction in which the edge was drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NamedEdge {
+    /// Its name.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// The pieces it runs along. Where a dart is cut out of it, the runs do not touch on the
+    /// flat; sewn they do.
+    pub runs: Vec<Run>,
+}
+
+/// A part of one piece, walked from `from` to `to`; `from > to` goes against the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Number of the loop.
+    pub ring: usize,
+    /// Number of the piece in the loop.
+    pub piece: usize,
+    /// Arc length from the start of the piece, m.
+    pub from: f64,
+    /// Arc length from the start of the piece, m.
+    pub to: f64,
+}
+
+impl Run {
+    /// Its length, m.
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).abs()
+    }
+}
+
+/// A mark on the outline.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Notch {
+    /// Its place in the drawing, m.
+    pub at: [f64; 2],
+    /// Unit vector into the cloth.
+    pub inward: [f64; 2],
+}

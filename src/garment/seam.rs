@@ -1,0 +1,98 @@
+//! What is sewn, attached and pinned.
+
+use super::panel::Run;
+use crate::diagnostic::Span;
+use serde::{Deserialize, Serialize};
+
+/// A run on a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PanelRun {
+    /// Number of the panel.
+    pub panel: usize,
+    /// The run.
+    pub run: Run,
+}
+
+/// Two lines of runs that are sewn to each other. Both are walked in the same sense: the start
+/// of `a` meets the start of `b`, and each share of `a`'s length meets the same share of `b`'s.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seam {
+    /// As written, `front.left.side -> back.left.side`, or `front.shaping` for a dart.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// What it is.
+    pub kind: SeamKind,
+    /// One side.
+    pub a: Vec<PanelRun>,
+    /// The other side.
+    pub b: Vec<PanelRun>,
+}
+
+/// What is sewn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SeamKind {
+    /// Edge to edge.
+    Plain,
+    /// The two legs of a dart.
+    Dart,
+    /// Closed by a zip: sewn like a seam.
+    Zip,
+}
+
+/// An edge held to a body where it comes to lie.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attachment {
+    /// Where it is declared.
+    pub span: Span,
+    /// The runs held.
+    pub runs: Vec<PanelRun>,
+    /// Number of the body.
+    pub body: usize,
+    /// A ring or point among the body's landmarks, such as `waist`.
+    pub landmark: String,
+}
+
+/// Points held still.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pin {
+    /// Where it is declared.
+    pub span: Span,
+    /// What is held.
+    pub what: Pinned,
+    /// Where it is held.
+    pub to: PinTarget,
+}
+
+/// What a pin holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Pinned {
+    /// All points of these runs.
+    Runs(Vec<PanelRun>),
+    /// The particle nearest to this place of the panel's drawing, m.
+    Point {
+        /// Number of the panel.
+        panel: usize,
+        /// Place in its drawing.
+        at: [f64; 2],
+    },
+}
+
+/// Where a pin holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PinTarget {
+    /// Where it lies when the drape begins.
+    Here,
+    /// At a place in the world, m.
+    Place([f64; 3]),
+    /// At a landmark of a body.
+    Landmark {
+        /// Number of the body.
+        body: usize,
+        /// The landmark's name.
+        name: String,
+    },
+}

@@ -1,0 +1,1 @@
+//! Curves, outlines, polygons and their intersections in the drawing plane.

@@ -1,0 +1,3 @@
+//! The `darzi` program.
+
+fn main() {}

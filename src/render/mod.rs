@@ -1,0 +1,1 @@
+//! Drape to pictures: camera, light, ray tracing, the look of textiles.
