@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 static TURN: Mutex<()> = Mutex::new(());
 
 /// Damaged copies of each text.
-const COPIES: u64 = 60;
+const COPIES: u64 = 30;
 
 /// A small generator of chance with a seed (Steele, Lea and Flood 2014, "SplitMix").
 struct Chance(u64);
