@@ -99,9 +99,7 @@ impl Wrapped<'_> {
 
     /// A piece laid all round with a hole in it: a circular skirt, a cloak.
     fn is_cone(&self, compiled: &Compiled) -> bool {
-        self.side == Side::Around
-            && self.limb().is_none()
-            && self.panel(compiled).loops.len() > 1
+        self.side == Side::Around && self.limb().is_none() && self.panel(compiled).loops.len() > 1
     }
 
     /// Height of the landmark, m.
