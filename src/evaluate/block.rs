@@ -1,11 +1,11 @@
 //! Blocks: declarations hoisted, loops and choices unrolled, copies merged.
 
+use super::Evaluator;
 use super::fields::{Arg, Fields, Phrase, Written, bare};
 use super::item::{ItemId, declares};
 use super::scope::{ScopeId, What};
 use super::value::Value;
 use super::words::{self, Kind, Word, vocabulary};
-use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Block, Expr, Item, Name, Statement, StatementKind};
 
@@ -103,10 +103,8 @@ impl<'t> Evaluator<'t> {
                 }
             }
             let name = replaces(statement);
-            let place = merged
-                .statements
-                .iter()
-                .position(|old| name.is_some() && replaces(old) == name);
+            let place =
+                merged.statements.iter().position(|old| name.is_some() && replaces(old) == name);
             match place {
                 Some(place) => merged.statements[place] = statement,
                 None => added.push(statement),
@@ -440,8 +438,7 @@ impl<'t> Evaluator<'t> {
                 table.words.iter().map(|word| word.name),
             );
             if kind == Kind::Outline || near.is_some() {
-                let label =
-                    self.meant(&action.text, table.words.iter().map(|word| word.name));
+                let label = self.meant(&action.text, table.words.iter().map(|word| word.name));
                 self.tell(
                     Diagnostic::new(
                         "E0203",
@@ -480,11 +477,10 @@ impl<'t> Evaluator<'t> {
             table.words.iter().map(|word| word.name),
         );
         let told = match (near, elsewhere.is_empty()) {
-            (None, false) => Diagnostic::new(
-                "E0202",
-                format!("{} has no `{}`", kind.title(), name.text),
-            )
-            .at(name.span, format!("it belongs into {}", elsewhere.join(" or "))),
+            (None, false) => {
+                Diagnostic::new("E0202", format!("{} has no `{}`", kind.title(), name.text))
+                    .at(name.span, format!("it belongs into {}", elsewhere.join(" or ")))
+            }
             _ => {
                 let label = self.meant(&name.text, table.words.iter().map(|word| word.name));
                 Diagnostic::new(

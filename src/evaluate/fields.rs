@@ -1,10 +1,10 @@
 //! Statements matched against the table of words: a block becomes [`Fields`], a line of words
 //! a [`Phrase`].
 
+use super::Evaluator;
 use super::item::ItemId;
 use super::scope::ScopeId;
 use super::words::{Clause, Element, Form, Kind, Many, Pattern, Word};
-use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Block, Expr, ExprKind, Item, Name, Row};
 
@@ -243,11 +243,8 @@ impl<'t> Reader<'_, 't> {
         loop {
             let Some(Item::Expr(expr)) = self.items.get(self.at) else {
                 let found = self.items.get(self.at).map_or(self.end, place);
-                let wanted = if choice.is_empty() {
-                    name.to_lowercase()
-                } else {
-                    choice.join(", ")
-                };
+                let wanted =
+                    if choice.is_empty() { name.to_lowercase() } else { choice.join(", ") };
                 self.ev.tell(
                     Diagnostic::new("E0208", format!("`{of}` must be given a value"))
                         .at(found, format!("missing here: {wanted}"))
@@ -372,8 +369,7 @@ impl<'t> Evaluator<'t> {
         let span = written.items.last().map_or(first, |item| first.to(place(item)));
         let end = Span { start: span.end.saturating_sub(1).max(span.start), ..span };
         let (head, clauses, rest, mut good) = {
-            let mut reader =
-                Reader { ev: self, word, pattern, items: written.items, at: 0, end };
+            let mut reader = Reader { ev: self, word, pattern, items: written.items, at: 0, end };
             let mut head = Vec::new();
             let mut rest: &'t [Item] = &[];
             let mut good = reader.elements(&written.key.text, &pattern.head, &mut head, &mut rest);
@@ -474,10 +470,5 @@ impl<'t> Evaluator<'t> {
             Some(arg) => self.quantity(arg, dimension),
             None => Some(otherwise),
         }
-    }
-
-    /// Whether a word stands as a property in this kind of block.
-    pub(super) fn is_property(kind: Kind, key: &str) -> bool {
-        super::words::vocabulary(kind).find(key, true).is_some_and(|w| w.form == Form::Property)
     }
 }

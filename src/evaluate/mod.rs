@@ -8,23 +8,17 @@
 
 mod block;
 mod declaration;
-mod drape;
 mod expression;
 pub mod fields;
 pub mod figure;
 mod function;
-mod garment;
 pub mod item;
 mod module;
 mod operator;
 pub mod panel;
-mod place;
-mod property;
 mod read;
 pub mod sari;
-mod scene;
 pub mod scope;
-mod seam;
 pub mod textile;
 pub mod value;
 pub mod words;
@@ -112,6 +106,8 @@ pub struct Evaluator<'t> {
     /// Names of halves by panel, from the places of the garment being worked out.
     sides: BTreeMap<ItemId, panel::Standing>,
     waiting: Vec<(Waiting, Span)>,
+    /// Bodies of the functions being called.
+    calling: Vec<&'t Expr>,
     told: Vec<Diagnostic>,
     depth: usize,
     steps: u64,
@@ -136,6 +132,7 @@ impl<'t> Evaluator<'t> {
             asked_for: BTreeSet::new(),
             sides: BTreeMap::new(),
             waiting: Vec::new(),
+            calling: Vec::new(),
             told: Vec::new(),
             depth: 0,
             steps: 0,
@@ -178,20 +175,12 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Works something out one level deeper; too deep is told.
-    fn deeper(
-        &mut self,
-        at: Span,
-        work: impl FnOnce(&mut Self) -> value::Value,
-    ) -> value::Value {
+    fn deeper(&mut self, at: Span, work: impl FnOnce(&mut Self) -> value::Value) -> value::Value {
         self.nested(1, at, work).unwrap_or(value::Value::Poison)
     }
 
     /// Works an item out; it takes more stack than a value.
-    fn deeper_item<T>(
-        &mut self,
-        at: Span,
-        work: impl FnOnce(&mut Self) -> Option<T>,
-    ) -> Option<T> {
+    fn deeper_item<T>(&mut self, at: Span, work: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         self.nested(10, at, work).flatten()
     }
 

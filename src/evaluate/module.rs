@@ -15,8 +15,15 @@ use std::collections::BTreeMap;
 const FILES: usize = 1_000;
 
 /// The library's modules whose names are known by kind.
-const LIBRARY: &[&str] =
-    &["std::color", "std::yarn", "std::weave", "std::knit", "std::motif", "std::fabric", "std::body"];
+const LIBRARY: &[&str] = &[
+    "std::color",
+    "std::yarn",
+    "std::weave",
+    "std::knit",
+    "std::motif",
+    "std::fabric",
+    "std::body",
+];
 
 /// A file that was read.
 #[derive(Debug)]

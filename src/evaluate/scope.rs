@@ -1,9 +1,9 @@
 //! Names: where they are declared, what they stand for, and who waits for whom.
 
+use super::Evaluator;
 use super::item::{ItemId, State};
 use super::panel::InstanceId;
 use super::value::Value;
-use super::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Expr, Formal, Name};
 use std::collections::BTreeMap;

@@ -8,7 +8,12 @@ pub(super) const TABLES: &[Vocabulary] = &[
         kind: Kind::Garment,
         words: &[
             item("wearer", "NAME = BODY", Kind::Wearer, "who wears it; measures may be set"),
-            item("panel", "NAME [ of FABRIC ] [ = PANEL ] [ with ]", Kind::Panel, "a piece of cloth; `panel b = a with { … }` copies the text of `a`, lines with the same name replace"),
+            item(
+                "panel",
+                "NAME [ of FABRIC ] [ = PANEL ] [ with ]",
+                Kind::Panel,
+                "a piece of cloth; `panel b = a with { … }` copies the text of `a`, lines with the same name replace",
+            ),
             action(
                 "seam",
                 "EDGE->… [ ease LENGTH | gathered RATIO | stretched SHARE ] [ open LENGTH | zip LENGTH ] [ from EDGE ] [ stitch plain|felled|french|overlock ] [ reversed ]",
@@ -20,20 +25,36 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "where a piece begins; gap 3cm unless said otherwise",
             ),
             action("attach", "EDGE,… to PLACE", "holds edges to the body where they come to lie"),
-            action("pin", "PIECE,… [ at PLACE ]", "holds an edge or a corner at a place, or where it is"),
+            action(
+                "pin",
+                "PIECE,… [ at PLACE ]",
+                "holds an edge or a corner at a place, or where it is",
+            ),
             action("fix", "PIECE,…", "holds an edge or a corner where it is when the drape begins"),
             action("check", "VALUE [ = VALUE ] [ within LENGTH ]", "an error unless it holds"),
             opening("drape", "", Kind::Drape, "what the workshop does, in order"),
             opening("picture", "[ NAME ]", Kind::Picture, "a picture of the dressed figure"),
-            property("grid", "LENGTH", "side of the cells of all panels, unless they say otherwise =8mm"),
+            property(
+                "grid",
+                "LENGTH",
+                "side of the cells of all panels, unless they say otherwise =8mm",
+            ),
         ],
         rows: None,
     },
     Vocabulary {
         kind: Kind::Drape,
         words: &[
-            action("sew", "until CONDITION", "draws the seams together without gravity: `sew until gap < 1mm`"),
-            action("settle", "until CONDITION [ within TIME ]", "lets it come to rest: `settle until speed < 2mm/s`; within 20s"),
+            action(
+                "sew",
+                "until CONDITION",
+                "draws the seams together without gravity: `sew until gap < 1mm`",
+            ),
+            action(
+                "settle",
+                "until CONDITION [ within TIME ]",
+                "lets it come to rest: `settle until speed < 2mm/s`; within 20s",
+            ),
             action("run", "TIME [ at RATE ]", "lets time pass: `run 2s at 60fps`"),
         ],
         rows: None,
@@ -42,7 +63,11 @@ pub(super) const TABLES: &[Vocabulary] = &[
         kind: Kind::Picture,
         words: &[
             property("of", "NAME", "what is shown; only for pictures outside a garment"),
-            property("views", "front|side|back|three_quarter|top,…", "from where, side by side =front"),
+            property(
+                "views",
+                "front|side|back|three_quarter|top,…",
+                "from where, side by side =front",
+            ),
             property("size", "COUNT x COUNT", "pixels across and down =900 x 1200"),
             property("light", "studio|daylight|overcast", "the light =studio"),
             property("show", "worn|on_line|flat", "how a sari is shown =on_line"),

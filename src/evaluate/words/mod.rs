@@ -178,16 +178,6 @@ pub(crate) const fn opening(
     Word { name, form: Form::Action, pattern, help, block: Some(block) }
 }
 
-/// A property that ends with a block.
-pub(crate) const fn section(
-    name: &'static str,
-    pattern: &'static str,
-    block: Kind,
-    help: &'static str,
-) -> Word {
-    Word { name, form: Form::Property, pattern, help, block: Some(block) }
-}
-
 /// An item `name NAME … { block }`.
 pub(crate) const fn item(
     name: &'static str,

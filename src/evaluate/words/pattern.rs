@@ -154,7 +154,8 @@ mod tests {
         );
         assert!(dart.head.is_empty());
         assert_eq!(dart.words(), ["on", "at", "width", "depth", "to", "pressed"]);
-        let group = |word| dart.clause(word).map(|clause| (clause.group, dart.groups[clause.group]));
+        let group =
+            |word| dart.clause(word).map(|clause| (clause.group, dart.groups[clause.group]));
         assert_eq!(group("depth"), group("to"));
         assert_eq!(group("depth").map(|g| g.1), Some(true));
         assert_eq!(group("pressed").map(|g| g.1), Some(false));

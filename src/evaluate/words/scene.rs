@@ -9,7 +9,11 @@ pub(super) const TABLES: &[Vocabulary] = &[
             item("cloth", "NAME of FABRIC", Kind::Cloth, "a plain piece of cloth, or a sari"),
             item("solid", "NAME", Kind::Solid, "a thing on which cloth lies"),
             item("wearer", "NAME = BODY", Kind::Wearer, "a figure standing in the scene"),
-            action("pin", "PIECE,… [ at PLACE ]", "holds an edge or a corner at a place, or where it is"),
+            action(
+                "pin",
+                "PIECE,… [ at PLACE ]",
+                "holds an edge or a corner at a place, or where it is",
+            ),
             action("fix", "PIECE,…", "holds an edge or a corner where it is when the drape begins"),
             action("check", "VALUE [ = VALUE ] [ within LENGTH ]", "an error unless it holds"),
             opening("drape", "", Kind::Drape, "what the workshop does, in order"),
@@ -22,7 +26,11 @@ pub(super) const TABLES: &[Vocabulary] = &[
         words: &[
             property("size", "LENGTH x LENGTH", "weft x warp; a sari brings its own"),
             property("shape", "rectangle|circle [ radius LENGTH ]", "its shape =rectangle"),
-            property("grid", "CELLS [ x CELLS ]", "cells across and up, or the side of a cell =8mm"),
+            property(
+                "grid",
+                "CELLS [ x CELLS ]",
+                "cells across and up, or the side of a cell =8mm",
+            ),
             property("at", "POINT", "where its middle begins =(0, 0, 0)"),
             property("facing", "up|front|side|down", "where its outside looks =up"),
             property("turn", "ANGLES", "turns about x, then y, then z, after facing"),
