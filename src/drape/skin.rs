@@ -63,11 +63,8 @@ impl Figures {
 
 impl Skin for Figures {
     fn nearest(&self, place: &Vector3<f64>) -> Option<Nearest> {
-        if self.friction.is_empty() {
-            return None;
-        }
-        let probe = self.field.probe(&Point3::from(*place));
-        probe.distance.is_finite().then(|| Nearest {
+        let probe = self.field.probe(Point3::from(*place))?;
+        Some(Nearest {
             distance: probe.distance,
             normal: probe.normal,
             friction: self.friction.get(probe.surface).copied().flatten(),
@@ -190,6 +187,23 @@ impl Contact {
             .with_min_len(ROWS)
             .map(|(i, ((touch, x), ahead))| touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, grip))
             .collect()
+    }
+
+    /// Whether a movement would press a knot that had no contact into the skin.
+    pub fn runs_into(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        dx: &[Vector3<f64>],
+        pushes: &[Option<Push>],
+    ) -> bool {
+        pushes.iter().enumerate().any(|(i, push)| {
+            let touch = &self.touches[i];
+            push.is_none()
+                && touch.distance - (x[i] - touch.at).norm() < REACH
+                && touch.distance + (x[i] + dx[i] - touch.at).dot(&touch.normal)
+                    < Self::seat(cloth, i) - 0.3 * GIVE
+        })
     }
 
     /// After a step from x to x + dx: loads and anchors for the next.
