@@ -1,7 +1,18 @@
 //! The library of the language, carried inside the program.
 
 /// A file of the library: its name in `use`, and its text.
-const FILES: &[(&str, &str)] = &[];
+const FILES: &[(&str, &str)] = &[
+    ("std::ang", include_str!("../../stdlib/ang.garment")),
+    ("std::body", include_str!("../../stdlib/body.garment")),
+    ("std::color", include_str!("../../stdlib/color.garment")),
+    ("std::fabric", include_str!("../../stdlib/fabric.garment")),
+    ("std::kath", include_str!("../../stdlib/kath.garment")),
+    ("std::knit", include_str!("../../stdlib/knit.garment")),
+    ("std::motif", include_str!("../../stdlib/motif.garment")),
+    ("std::padar", include_str!("../../stdlib/padar.garment")),
+    ("std::weave", include_str!("../../stdlib/weave.garment")),
+    ("std::yarn", include_str!("../../stdlib/yarn.garment")),
+];
 
 /// The text of a library file by its name, `std::fabric`.
 pub fn text(name: &str) -> Option<&'static str> {
