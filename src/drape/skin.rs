@@ -185,7 +185,9 @@ impl Contact {
             .zip(ahead)
             .enumerate()
             .with_min_len(ROWS)
-            .map(|(i, ((touch, x), ahead))| touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, grip))
+            .map(|(i, ((touch, x), ahead))| {
+                touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, grip)
+            })
             .collect()
     }
 
