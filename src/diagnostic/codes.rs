@@ -34,6 +34,7 @@ pub const CODES: &[Code] = &[
     code("E0115", "a number out of reach"),
     code("E0116", "a word of the language used as a name"),
     code("E0117", "a bracket is not closed"),
+    code("E0118", "most of a text makes no sense"),
     code("E0201", "a name that nobody declared"),
     code("E0202", "a property or action does not belong into this block"),
     code("E0203", "an unknown word"),

@@ -179,7 +179,7 @@ impl Reader<'_> {
 
     /// The arguments of a call.
     fn arguments<'t>(&mut self, parts: impl Iterator<Item = Part<'t>>) -> (Vec<Argument>, u32) {
-        let mut arguments = Vec::new();
+        let mut arguments: Vec<Argument> = Vec::new();
         let mut height = 0;
         for part in parts {
             let mut name = None;
@@ -189,6 +189,9 @@ impl Reader<'_> {
                 } else {
                     let value = self.tall(inner);
                     height = height.max(value.height);
+                    if let (Some(before), None) = (arguments.last(), &name) {
+                        self.decimal_comma(&before.value, &value.expr, false);
+                    }
                     arguments.push(Argument { name: name.take(), value: value.expr });
                 }
             }

@@ -2,6 +2,7 @@
 
 use super::grammar::{Part, Rule};
 use super::lookalike;
+use super::mistake;
 use super::reader::Reader;
 use super::tree::{ExprKind, Name};
 use crate::diagnostic::Diagnostic;
@@ -26,6 +27,15 @@ impl Reader<'_> {
             );
         }
         Name { text, span }
+    }
+
+    /// A name that is being given to something.
+    pub(super) fn new_name(&mut self, part: &Part) -> Name {
+        let name = self.name(part);
+        if mistake::RESERVED.contains(&name.text.as_str()) {
+            self.tell(mistake::reserved(&name.text, name.span));
+        }
+        name
     }
 
     /// What stands before a colon: a name, `2HB`, or a string.

@@ -7,7 +7,7 @@ use super::tree::Name;
 use crate::diagnostic::{Diagnostic, Span};
 
 /// Words that cannot be names.
-const RESERVED: [&str; 11] =
+pub(super) const RESERVED: [&str; 11] =
     ["use", "let", "param", "fn", "if", "then", "else", "and", "or", "not", "for"];
 
 /// Units that are likely to be written apart from their number. `in` is not among them: it is
@@ -55,18 +55,31 @@ pub(super) fn apart(text: &str, before: Span, word: &Name) -> Option<Diagnostic>
     })
 }
 
+/// What to say of a reserved word where a name is wanted.
+pub(super) fn reserved(word: &str, at: Span) -> Diagnostic {
+    Diagnostic::new("E0116", format!("`{word}` is a word of the language itself"))
+        .at(at, "not a name")
+        .help("choose another name")
+}
+
 /// What to say of an operator with a blank on one side only.
 pub(super) fn uneven(at: Span, sign: &str) -> Diagnostic {
-    Diagnostic::new("E0105", format!("`{sign}` has a blank on one side only")).at(at, "here").help(
-        format!("write `a {sign} b` or `a{sign}b` for one value, `a, {sign}b` or `(…)` for two"),
-    )
+    let told =
+        Diagnostic::new("E0105", format!("`{sign}` has a blank on one side only")).at(at, "here");
+    if matches!(sign, "+" | "-") {
+        told.help(format!(
+            "write `a {sign} b` or `a{sign}b` for one value, `a, {sign}b` or `(…)` for two"
+        ))
+    } else {
+        told.help(format!("write `a {sign} b` or `a{sign}b`"))
+    }
 }
 
 fn unlike(at: Span, written: &str, meant: &str) -> Diagnostic {
-    let label = if meant.trim().is_empty() {
-        "write a plain blank, or nothing".to_owned()
-    } else {
-        format!("write `{meant}`")
+    let label = match (meant, written) {
+        ("x", "\u{D7}") => "write `x` between sizes, `*` to multiply".to_owned(),
+        (" " | "", _) => "write a plain blank, or nothing".to_owned(),
+        _ => format!("write `{meant}`"),
     };
     let message = if written.chars().all(|c| c.is_alphanumeric() || c.is_ascii_graphic()) {
         format!("`{written}` is not what it looks like")
@@ -83,9 +96,17 @@ fn unlike(at: Span, written: &str, meant: &str) -> Diagnostic {
         .help("names may use every script; numbers, units and signs are ASCII")
 }
 
+/// Stray texts of a file that are looked at closely; nobody reads more explanations.
+const EXPLAINED: usize = 200;
+
 /// Explains the stray text `junk`; the statement it belongs to begins at `from`.
-pub(super) fn explain(reader: &Reader, from: usize, junk: Span) -> Diagnostic {
+pub(super) fn explain(reader: &mut Reader, from: usize, junk: Span) -> Diagnostic {
     let (start, end) = (junk.start as usize, junk.end as usize);
+    reader.explained += 1;
+    if reader.explained > EXPLAINED {
+        return Diagnostic::new("E0101", "this text makes no sense here").at(junk, "here");
+    }
+    let reader = &*reader;
     let text = reader.slice(from, end);
     let stop = match grammar::read(Rule::probe, text) {
         Ok(_) => start,
@@ -262,11 +283,7 @@ impl<'t> Site<'_, 't> {
 
     fn reserved(&self) -> Option<Diagnostic> {
         let token = self.token();
-        RESERVED.contains(&token).then(|| {
-            Diagnostic::new("E0116", format!("`{token}` is a word of the language itself"))
-                .at(self.span(token.len()), "not a name")
-                .help("choose another name")
-        })
+        RESERVED.contains(&token).then(|| reserved(token, self.span(token.len())))
     }
 
     /// A bracket that is open at the place, the line being at its end.
@@ -307,7 +324,7 @@ impl<'t> Site<'_, 't> {
             "for" => "a repetition: `for NAME in 1..6 { … }`",
             "if" | "else" => "a choice: `if CONDITION { … } else { … }`",
             "use" => "names of another file: `use \"FILE.garment\"::{NAME, NAME}`",
-            _ => "a statement is `name: value`, or a word with its operands and a `{ … }` perhaps",
+            _ => "a statement is `name: value`, or a word with operands and perhaps a block",
         })
     }
 }

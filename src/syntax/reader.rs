@@ -19,6 +19,8 @@ pub(super) struct Reader<'t> {
     /// Where the last message about the rest of a line was; nothing more is told of that line
     /// until it ends or a `;` begins something new.
     pub(super) rest_told: Option<usize>,
+    /// Stray texts that were explained so far.
+    pub(super) explained: usize,
     told: Vec<Diagnostic>,
 }
 
@@ -41,13 +43,15 @@ pub(super) fn read(file: FileId, text: &str) -> (tree::File, Vec<Diagnostic>) {
         choices: 0,
         blocks: Vec::new(),
         rest_told: None,
+        explained: 0,
         told: Vec::new(),
     };
     let statements = match grammar::read(Rule::file, text) {
         Ok(parts) => reader.statements(parts.into_inner()),
-        Err(Stop { at }) => {
-            // The grammar takes any text; only its limits on depth and work stop it.
-            reader.tell(nesting::told(reader.place(at, at + 1)));
+        // The grammar takes any text; only its limits on depth and work stop it.
+        Err(Stop { at, tired }) => {
+            let place = reader.place(at, at + 1);
+            reader.tell(if tired { senseless(place) } else { nesting::told(place) });
             Vec::new()
         }
     };
@@ -57,9 +61,21 @@ pub(super) fn read(file: FileId, text: &str) -> (tree::File, Vec<Diagnostic>) {
     (tree::File { statements }, told)
 }
 
+fn senseless(at: Span) -> Diagnostic {
+    Diagnostic::new("E0118", "most of this text makes no sense")
+        .at(at, "reading was given up here")
+        .help("is it a `.garment` file at all?")
+}
+
 impl<'t> Reader<'t> {
     pub(super) fn tell(&mut self, diagnostic: Diagnostic) {
         self.told.push(diagnostic);
+    }
+
+    /// Tells of a word as part of something larger, and no more of the word alone.
+    pub(super) fn tell_instead(&mut self, diagnostic: Diagnostic, word: Span) {
+        self.told.pop_if(|last| last.labels.first().is_some_and(|label| label.span == word));
+        self.tell(diagnostic);
     }
 
     /// The place of a part.

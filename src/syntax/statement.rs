@@ -71,7 +71,7 @@ impl Reader<'_> {
 
     fn let_<'t>(&mut self, parts: impl Iterator<Item = Part<'t>>) -> Option<(StatementKind, Span)> {
         let mut parts = parts.filter(|part| part.as_rule() != Rule::kw_let);
-        let name = self.name(&parts.next()?);
+        let name = self.new_name(&parts.next()?);
         let value = self.expr(parts.next()?);
         let end = value.span;
         Some((StatementKind::Let { name, value }, end))
@@ -82,7 +82,7 @@ impl Reader<'_> {
         parts: impl Iterator<Item = Part<'t>>,
     ) -> Option<(StatementKind, Span)> {
         let mut parts = parts.filter(|part| part.as_rule() != Rule::kw_param);
-        let name = self.name(&parts.next()?);
+        let name = self.new_name(&parts.next()?);
         let mut end = name.span;
         let (mut kind, mut default, mut range) = (None, None, None);
         let mut ranged = false;
@@ -109,7 +109,7 @@ impl Reader<'_> {
         parts: impl Iterator<Item = Part<'t>>,
     ) -> Option<(StatementKind, Span)> {
         let mut parts = parts.filter(|part| part.as_rule() != Rule::kw_fn);
-        let name = self.name(&parts.next()?);
+        let name = self.new_name(&parts.next()?);
         let mut formals = Vec::new();
         let mut kind = None;
         let mut value = None;
@@ -127,7 +127,7 @@ impl Reader<'_> {
 
     fn formal(&mut self, part: Part) -> Option<Formal> {
         let mut parts = part.into_inner();
-        let name = self.name(&parts.next()?);
+        let name = self.new_name(&parts.next()?);
         let kind = self.name(&parts.next()?);
         let default = parts.next().map(|value| self.expr(value));
         Some(Formal { name, kind, default })
@@ -138,7 +138,7 @@ impl Reader<'_> {
         parts: impl Iterator<Item = Part<'t>>,
     ) -> Option<(StatementKind, Span)> {
         let mut parts = parts.filter(|part| !matches!(part.as_rule(), Rule::kw_for | Rule::kw_in));
-        let name = self.name(&parts.next()?);
+        let name = self.new_name(&parts.next()?);
         let over = self.expr(parts.next()?);
         let body = self.block(parts.next()?);
         let end = body.span;
@@ -227,8 +227,9 @@ impl Reader<'_> {
                 Rule::drawing => {
                     tail.drawing = self.drawing(part);
                     if let Some(row) = tail.drawing.last() {
-                        // The bar behind the last cells belongs to the row.
-                        end = Span { end: row.span.end.saturating_add(1), ..row.span };
+                        // The bar behind the last cells belongs to the row, if there is one.
+                        let bar = row.span.end as usize;
+                        end = self.place(bar, bar + usize::from(self.slice(bar, bar + 1) == "|"));
                     }
                 }
                 Rule::block => {

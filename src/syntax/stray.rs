@@ -5,7 +5,7 @@ use super::grammar::{Part, Rule};
 use super::mistake;
 use super::reader::Reader;
 use super::statement::cut_short;
-use super::tree::{Block, Expr, ExprKind, Item, Name, Statement, StatementKind};
+use super::tree::{Block, Expr, ExprKind, Item, Name, Statement, StatementKind, UnaryOp};
 use crate::diagnostic::{Diagnostic, Span};
 
 /// What a list of statements is being made of.
@@ -91,7 +91,7 @@ impl Reader<'_> {
             && let Some(told) = mistake::apart(self.text, last.span, word)
         {
             cut_short(last, word.span);
-            self.tell(told);
+            self.tell_instead(told, word.span);
             return true;
         }
         self.tell(two_on_a_line(word.span));
@@ -255,6 +255,7 @@ impl Reader<'_> {
             && let [word] = &names[..]
             && let Some(told) = mistake::apart(self.text, before.span, word)
         {
+            let word_span = word.span;
             let unread = Expr { span: before.span.to(word.span), kind: ExprKind::Unread };
             *before = match &before.kind {
                 ExprKind::Number { value, unit: None } if mistake::is_unit(&word.text) => Expr {
@@ -263,10 +264,10 @@ impl Reader<'_> {
                 },
                 _ => unread,
             };
-            self.tell(told);
+            self.tell_instead(told, word_span);
             return None;
         }
-        if let ExprKind::Unary(super::tree::UnaryOp::Minus, _) = &next.kind
+        if leads_with_minus(next)
             && before.span.end < next.span.start
             && matches!(
                 before.kind,
@@ -329,6 +330,15 @@ fn closing(parts: &[Part], mut open: usize) -> usize {
         }
     }
     0
+}
+
+/// Whether the first sign of a value is a minus of its own.
+fn leads_with_minus(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Unary(UnaryOp::Minus, _) => true,
+        ExprKind::Binary { left, .. } => leads_with_minus(left),
+        _ => false,
+    }
 }
 
 fn open_brackets(text: &str) -> usize {

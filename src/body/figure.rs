@@ -1,0 +1,257 @@
+//! The two figures as tables of sections, drawn on their reference bodies (EU 38, EU 50).
+//!
+//! Every number is a length in metres on the reference body, unless it says otherwise. The form
+//! stretches the tables in height to the stations of a body and in girth until its tapes agree.
+
+use crate::garment::scene::Figure;
+
+/// Heights between which the trunk's table is stretched, from below: crotch, hip, waist,
+/// underbust, bust, underarm, acromion, side of the neck.
+pub(super) const STATIONS: usize = 8;
+
+/// A section of the trunk: station (7 = side of the neck), half breadth, reach to the front and
+/// to the back of its middle, place of the middle in front of the ankles, fullness.
+pub(super) type TrunkRow = [f64; 6];
+
+/// A section of a limb: share of the way along it, reach to +u, −u, +v, −v, middle along u and v.
+pub(super) type LimbRow = [f64; 7];
+
+/// A rounded swelling: middle (to the side, up from its station, to the front), radii in the same
+/// order. `up` tells the radius above the middle from that below it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swelling {
+    /// Station of the middle.
+    pub(super) station: usize,
+    /// Middle, from the middle plane, the station and the ankles.
+    pub(super) middle: [f64; 3],
+    /// Radii to the side, downwards, to the front.
+    pub(super) radii: [f64; 3],
+    /// Radius upwards.
+    pub(super) up: f64,
+    /// How far the fillet to the trunk reaches.
+    pub(super) blend: f64,
+}
+
+/// All tables of a figure.
+#[derive(Debug)]
+pub(super) struct Template {
+    /// Height of the reference body.
+    pub(super) height: f64,
+    /// Sections of the trunk.
+    pub(super) trunk: &'static [TrunkRow],
+    /// Sections of the leg from the sole (0) to the crotch (1) and beyond; u to the side.
+    pub(super) leg: &'static [LimbRow],
+    /// Sections of the arm from the shoulder joint (0) to the wrist (1); u to the front, v
+    /// upwards and outwards.
+    pub(super) arm: &'static [LimbRow],
+    /// Sections of the hand from the wrist (0) to the finger tips (1).
+    pub(super) hand: &'static [LimbRow],
+    /// Sections of the neck from its root (0) into the head (1); u to the side, v to the front.
+    pub(super) neck: &'static [LimbRow],
+    /// Chest: breasts or the great chest muscles.
+    pub(super) chest: Swelling,
+    /// Buttocks.
+    pub(super) seat: Swelling,
+    /// Fall of the shoulder line, rad.
+    pub(super) slope: f64,
+    /// Lean of the neck to the front, rad.
+    pub(super) lean: f64,
+    /// Girths on which the tables are drawn, by measure.
+    pub(super) girths: &'static [(&'static str, f64)],
+}
+
+/// The tables of a figure.
+pub(super) fn template(figure: Figure) -> &'static Template {
+    match figure {
+        Figure::Female => &FEMALE,
+        Figure::Male => &MALE,
+    }
+}
+
+const FEMALE: Template = Template {
+    height: 1.68,
+    trunk: &[
+        [0.0, 0.100, 0.075, 0.075, -0.005, 2.0],
+        [0.5, 0.152, 0.090, 0.092, -0.003, 2.1],
+        [1.0, 0.171, 0.096, 0.104, -0.006, 2.2],
+        [1.5, 0.160, 0.098, 0.094, -0.002, 2.2],
+        [2.0, 0.126, 0.086, 0.080, 0.004, 2.2],
+        [3.0, 0.129, 0.084, 0.094, 0.002, 2.25],
+        [4.0, 0.141, 0.086, 0.106, -0.005, 2.3],
+        [5.0, 0.148, 0.079, 0.110, -0.012, 2.35],
+        [5.5, 0.155, 0.066, 0.098, -0.020, 2.35],
+        [6.0, 0.152, 0.046, 0.068, -0.030, 2.2],
+        [6.5, 0.110, 0.040, 0.052, -0.032, 2.0],
+        [7.0, 0.058, 0.036, 0.042, -0.032, 2.0],
+    ],
+    leg: &[
+        [0.0, 0.032, 0.032, 0.036, 0.036, 0.094, -0.012],
+        [0.06, 0.031, 0.031, 0.037, 0.037, 0.094, -0.012],
+        [0.13, 0.030, 0.030, 0.036, 0.038, 0.093, -0.012],
+        [0.21, 0.036, 0.035, 0.039, 0.043, 0.092, -0.012],
+        [0.31, 0.048, 0.046, 0.045, 0.060, 0.092, -0.010],
+        [0.43, 0.054, 0.052, 0.050, 0.066, 0.092, -0.006],
+        [0.52, 0.051, 0.050, 0.053, 0.058, 0.091, 0.000],
+        [0.60, 0.053, 0.055, 0.063, 0.055, 0.091, 0.005],
+        [0.68, 0.058, 0.058, 0.068, 0.060, 0.092, 0.006],
+        [0.80, 0.070, 0.069, 0.078, 0.073, 0.095, 0.005],
+        [0.93, 0.082, 0.079, 0.087, 0.088, 0.096, 0.002],
+        [1.00, 0.086, 0.080, 0.090, 0.096, 0.095, 0.000],
+        [1.09, 0.080, 0.070, 0.085, 0.090, 0.088, 0.000],
+    ],
+    arm: &[
+        [0.0, 0.046, 0.046, 0.045, 0.045, 0.0, 0.0],
+        [0.10, 0.049, 0.049, 0.048, 0.047, 0.0, 0.0],
+        [0.20, 0.048, 0.048, 0.046, 0.046, 0.0, 0.0],
+        [0.32, 0.046, 0.045, 0.042, 0.044, 0.0, 0.0],
+        [0.45, 0.042, 0.041, 0.038, 0.040, 0.0, 0.0],
+        [0.56, 0.038, 0.040, 0.037, 0.036, 0.002, 0.0],
+        [0.66, 0.040, 0.040, 0.038, 0.037, 0.008, 0.0],
+        [0.80, 0.034, 0.034, 0.031, 0.030, 0.018, 0.0],
+        [0.93, 0.028, 0.028, 0.022, 0.022, 0.028, 0.0],
+        [1.0, 0.0275, 0.0275, 0.020, 0.020, 0.033, 0.0],
+    ],
+    hand: &[
+        [0.16, 0.029, 0.029, 0.018, 0.018, 0.040, 0.0],
+        [0.36, 0.037, 0.037, 0.015, 0.016, 0.050, 0.0],
+        [0.52, 0.039, 0.039, 0.013, 0.014, 0.057, 0.0],
+        [0.76, 0.034, 0.035, 0.010, 0.012, 0.066, -0.004],
+        [0.92, 0.026, 0.028, 0.008, 0.009, 0.071, -0.008],
+    ],
+    neck: &[
+        [0.0, 0.056, 0.056, 0.054, 0.054, 0.0, 0.0],
+        [0.35, 0.053, 0.053, 0.053, 0.053, 0.0, 0.0],
+        [0.6, 0.050, 0.050, 0.053, 0.053, 0.0, 0.0],
+        [1.0, 0.048, 0.048, 0.052, 0.052, 0.0, 0.0],
+    ],
+    chest: Swelling {
+        station: 4,
+        middle: [0.092, 0.008, 0.070],
+        radii: [0.062, 0.062, 0.066],
+        up: 0.095,
+        blend: 0.03,
+    },
+    seat: Swelling {
+        station: 1,
+        middle: [0.074, -0.012, -0.056],
+        radii: [0.082, 0.085, 0.076],
+        up: 0.120,
+        blend: 0.05,
+    },
+    slope: 0.36,
+    lean: 0.29,
+    girths: &[
+        ("bust", 0.88),
+        ("underbust", 0.75),
+        ("waist", 0.72),
+        ("hip", 0.97),
+        ("neck", 0.36),
+        ("thigh", 0.5626),
+        ("knee", 0.3735),
+        ("calf", 0.361),
+        ("ankle", 0.223),
+        ("upper_arm", 0.28),
+        ("elbow", 0.2436),
+        ("wrist", 0.158),
+        ("head", 0.5544),
+    ],
+};
+
+const MALE: Template = Template {
+    height: 1.8,
+    trunk: &[
+        [0.0, 0.100, 0.080, 0.075, -0.003, 2.0],
+        [0.5, 0.152, 0.094, 0.090, -0.002, 2.1],
+        [1.0, 0.170, 0.098, 0.102, -0.004, 2.25],
+        [1.5, 0.166, 0.102, 0.094, 0.0, 2.3],
+        [2.0, 0.156, 0.104, 0.090, 0.004, 2.3],
+        [3.0, 0.160, 0.108, 0.106, 0.0, 2.35],
+        [4.0, 0.174, 0.112, 0.122, -0.008, 2.4],
+        [5.0, 0.178, 0.106, 0.124, -0.012, 2.4],
+        [5.5, 0.186, 0.088, 0.112, -0.022, 2.4],
+        [6.0, 0.184, 0.054, 0.078, -0.034, 2.2],
+        [6.5, 0.132, 0.046, 0.060, -0.036, 2.0],
+        [7.0, 0.066, 0.040, 0.048, -0.036, 2.0],
+    ],
+    leg: &[
+        [0.0, 0.036, 0.036, 0.040, 0.040, 0.102, -0.014],
+        [0.06, 0.035, 0.035, 0.041, 0.041, 0.102, -0.014],
+        [0.13, 0.033, 0.033, 0.039, 0.041, 0.101, -0.014],
+        [0.21, 0.039, 0.038, 0.041, 0.046, 0.100, -0.014],
+        [0.31, 0.051, 0.049, 0.046, 0.063, 0.099, -0.012],
+        [0.43, 0.057, 0.055, 0.052, 0.070, 0.098, -0.008],
+        [0.52, 0.054, 0.053, 0.056, 0.061, 0.097, 0.000],
+        [0.60, 0.056, 0.057, 0.067, 0.058, 0.096, 0.005],
+        [0.68, 0.061, 0.060, 0.072, 0.063, 0.096, 0.007],
+        [0.80, 0.073, 0.070, 0.083, 0.077, 0.097, 0.007],
+        [0.93, 0.084, 0.078, 0.091, 0.090, 0.097, 0.004],
+        [1.00, 0.087, 0.080, 0.093, 0.096, 0.096, 0.002],
+        [1.09, 0.082, 0.070, 0.088, 0.090, 0.090, 0.000],
+    ],
+    arm: &[
+        [0.0, 0.053, 0.053, 0.050, 0.050, 0.0, 0.0],
+        [0.10, 0.058, 0.057, 0.056, 0.053, 0.0, 0.0],
+        [0.20, 0.056, 0.055, 0.055, 0.051, 0.0, 0.0],
+        [0.32, 0.053, 0.051, 0.048, 0.048, 0.0, 0.0],
+        [0.45, 0.048, 0.047, 0.043, 0.045, 0.0, 0.0],
+        [0.56, 0.043, 0.044, 0.042, 0.040, 0.002, 0.0],
+        [0.66, 0.046, 0.046, 0.044, 0.042, 0.008, 0.0],
+        [0.80, 0.040, 0.040, 0.036, 0.035, 0.018, 0.0],
+        [0.93, 0.032, 0.032, 0.025, 0.025, 0.030, 0.0],
+        [1.0, 0.031, 0.031, 0.023, 0.023, 0.035, 0.0],
+    ],
+    hand: &[
+        [0.16, 0.033, 0.033, 0.021, 0.021, 0.043, 0.0],
+        [0.36, 0.043, 0.043, 0.018, 0.019, 0.054, 0.0],
+        [0.52, 0.045, 0.045, 0.015, 0.017, 0.062, 0.0],
+        [0.76, 0.039, 0.040, 0.012, 0.014, 0.072, -0.004],
+        [0.92, 0.030, 0.032, 0.010, 0.011, 0.078, -0.008],
+    ],
+    neck: &[
+        [0.0, 0.064, 0.064, 0.062, 0.062, 0.0, 0.0],
+        [0.35, 0.062, 0.062, 0.061, 0.061, 0.0, 0.0],
+        [0.6, 0.060, 0.060, 0.061, 0.061, 0.0, 0.0],
+        [1.0, 0.057, 0.057, 0.060, 0.060, 0.0, 0.0],
+    ],
+    chest: Swelling {
+        station: 4,
+        middle: [0.085, 0.030, 0.065],
+        radii: [0.085, 0.050, 0.052],
+        up: 0.085,
+        blend: 0.05,
+    },
+    seat: Swelling {
+        station: 1,
+        middle: [0.074, -0.010, -0.050],
+        radii: [0.078, 0.085, 0.072],
+        up: 0.105,
+        blend: 0.05,
+    },
+    slope: 0.36,
+    lean: 0.31,
+    girths: &[
+        ("chest", 1.0),
+        ("waist", 0.88),
+        ("hip", 1.03),
+        ("neck", 0.4),
+        ("thigh", 0.5768),
+        ("knee", 0.3863),
+        ("calf", 0.376),
+        ("ankle", 0.2318),
+        ("upper_arm", 0.31),
+        ("elbow", 0.2728),
+        ("wrist", 0.175),
+        ("head", 0.573),
+    ],
+};
+
+/// A foot of a body 1.68 m tall: way from the ankle to the front, half breadth, height of the
+/// top, middle to the side.
+pub(super) const FOOT: &[[f64; 4]] = &[
+    [-0.030, 0.030, 0.070, 0.000],
+    [0.000, 0.033, 0.080, 0.000],
+    [0.040, 0.036, 0.072, 0.002],
+    [0.080, 0.042, 0.052, 0.005],
+    [0.120, 0.046, 0.036, 0.006],
+    [0.150, 0.044, 0.027, 0.004],
+];
