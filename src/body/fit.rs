@@ -128,25 +128,39 @@ fn felt(form: &Form, station: &Station) -> f64 {
     girth(&points)
 }
 
-/// Distance from an inner point to the skin along `way`, m: strides outwards, then halvings.
+/// Distance from an inner point to the skin along `way`, m: strides outwards until outside, then
+/// false position.
+///
+/// # References
+/// Dowell and Jarratt 1971, "A modified regula falsi method" (the Illinois rule).
 pub(super) fn skin(
     value: &impl Fn(Point3<f64>) -> f64,
     from: Point3<f64>,
     way: Vector3<f64>,
     stride: f64,
 ) -> f64 {
-    let mut inner = 0.0;
-    let mut outer = stride;
-    while value(from + way * outer) < 0.0 && outer < 2.0 {
-        inner = outer;
+    let at = |reach: f64| value(from + way * reach);
+    let (mut inner, mut outer) = (0.0, stride);
+    let (mut f, mut g) = (at(inner), at(outer));
+    while g < 0.0 && outer < 2.0 {
+        (inner, f) = (outer, g);
         outer += stride;
+        g = at(outer);
     }
     for _ in 0..40 {
-        let middle = (inner + outer) / 2.0;
-        if value(from + way * middle) < 0.0 {
-            inner = middle;
+        if outer - inner < 1e-7 || f >= 0.0 {
+            break;
+        }
+        let middle = (inner + (outer - inner) * (f / (f - g))).clamp(inner, outer);
+        let h = at(middle);
+        if h.abs() < 1e-8 {
+            return middle;
+        }
+        // The end that stays weighs half, so that neither end stays for long.
+        if h < 0.0 {
+            (inner, f, g) = (middle, h, g / 2.0);
         } else {
-            outer = middle;
+            (outer, g, f) = (middle, h, f / 2.0);
         }
     }
     (inner + outer) / 2.0

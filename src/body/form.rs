@@ -10,8 +10,9 @@ use crate::garment::scene::{BodyRequest, Figure};
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 
-/// Beyond this distance from a part's box, the part cannot touch any fillet, m.
-const FAR: f64 = 0.09;
+/// Beyond this distance from a part's box, the part cannot touch any fillet, m: more than
+/// the widest fillet of the tallest body.
+const FAR: f64 = 0.08;
 
 /// What the tapes correct: a factor for each girth, 1 at first.
 pub(super) type Corrections = BTreeMap<&'static str, f64>;
@@ -172,7 +173,7 @@ impl Form {
         let across = measures.get("shoulder") * libm::cos(table.slope);
         let side_of_neck = measures.get("neck") / std::f64::consts::TAU * 1.02;
         let acromion =
-            Point3::new(side_of_neck + across, levels[6], (table.trunk[9][4] - 0.004) * size);
+            Point3::new(side_of_neck + across, levels[6], (table.shoulder()[4] + 0.002) * size);
 
         let trunk = trunk(request.figure, table, &levels, &scale, acromion.x, size);
         let neck = neck(table, root, scale("neck"), size, height - nape);
@@ -220,7 +221,7 @@ impl Form {
         let soft = 0.008 * self.size;
         let q = Point3::new((p.x * p.x + soft * soft).sqrt(), p.y, p.z);
         let size = self.size;
-        let mut value = self.trunk.value(p);
+        let mut value = self.trunk.value(p) + self.furrow(p);
         value = join(value, self.chest.value(q), self.chest_blend);
         value = join(value, self.seat.value(q), self.seat_blend);
         value = join(value, self.neck.value(p), 0.035 * size);
@@ -229,6 +230,21 @@ impl Form {
         value = join(value, self.left_leg(q), 0.04 * size);
         // Flat soles.
         -join(-value, p.y, 0.006 * size)
+    }
+
+    /// Depth of the furrow along the spine at `p`, m.
+    fn furrow(&self, p: Point3<f64>) -> f64 {
+        let [_, hip, .., underarm, acromion, _] = self.levels;
+        let (low, high) = (hip + 0.05 * self.size, (underarm + acromion) / 2.0);
+        if p.z > -0.02 * self.size || p.y < low || p.y > high {
+            return 0.0;
+        }
+        let along = (p.y - low) / (high - low);
+        let across = p.x / (0.022 * self.size);
+        let bell = libm::exp(-across * across);
+        let rise = 16.0 * along * along * (1.0 - along) * (1.0 - along);
+        let back = ((-p.z / self.size - 0.02) / 0.03).min(1.0);
+        0.006 * self.size * bell * rise * back
     }
 
     /// The left leg alone.
@@ -382,7 +398,7 @@ fn trunk(
 ) -> Loft {
     let stations: Vec<f64> = (0..STATIONS).map(|k| k as f64).collect();
     let height = Curve::new(&stations, levels);
-    let shoulders = (acromion - 0.018 * size) / table.trunk[9][1];
+    let shoulders = (acromion - 0.018 * size) / table.shoulder()[1];
     let (hip, waist, neck) = (scale("hip"), scale("waist"), scale("neck"));
     let (rib, chest) = match figure {
         Figure::Female => (scale("underbust"), scale("underbust")),
@@ -411,7 +427,9 @@ fn trunk(
         .collect();
     let frame =
         Frame { origin: Point3::origin(), u: Vector3::x(), v: Vector3::z(), along: Vector3::y() };
-    Loft::new(frame, &rows, 0.012 * size, [0.03 * size, 0.02 * size])
+    // Soft along the ribs, sharper where the shoulders turn into the neck.
+    let sharp = Curve::new(&[levels[4], levels[6]], &[0.026 * size, 0.011 * size]);
+    Loft::new(frame, &rows, |t| sharp.at(t), [0.035 * size, 0.02 * size])
 }
 
 /// The neck, from inside the trunk into the head.
@@ -425,7 +443,7 @@ fn neck(table: &Template, root: Point3<f64>, girth: f64, size: f64, above: f64) 
         v: Vector3::new(0.0, -sin, cos),
         along: Vector3::new(0.0, cos, sin),
     };
-    Loft::new(frame, &rows, 0.01 * size, [0.03 * size, 0.03 * size])
+    Loft::new(frame, &rows, |_| 0.01 * size, [0.03 * size, 0.03 * size])
 }
 
 /// Skull and face: an egg with a chin, without features.
@@ -524,7 +542,7 @@ fn leg(
     }
     let frame =
         Frame { origin: Point3::origin(), u: Vector3::x(), v: Vector3::z(), along: Vector3::y() };
-    let loft = Loft::new(frame, &rows, 0.014 * size, [0.02 * size, 0.05 * size]);
+    let loft = Loft::new(frame, &rows, |_| 0.014 * size, [0.02 * size, 0.05 * size]);
     (loft, [0.92, 0.6, 0.43, 0.12].map(|s| s * crotch))
 }
 
@@ -548,11 +566,11 @@ fn foot(leg: &Loft, grown: f64, size: f64) -> Loft {
                 u: [half * grown; 2],
                 v: [(top - middle) * grown, (middle + 0.012) * grown],
                 centre: [side * grown, middle * grown],
-                fullness: 2.3,
+                fullness: 0.05,
             }
         })
         .collect();
-    Loft::new(frame, &rows, 0.01 * size, [0.03 * grown, 0.032 * grown])
+    Loft::new(frame, &rows, |_| 0.01 * size, [0.03 * grown, 0.032 * grown])
 }
 
 /// The left arm with its hand; ways to the middle of the upper arm, the elbow and the wrist; the
@@ -566,7 +584,7 @@ fn arm(
     chest_level: f64,
     size: f64,
 ) -> (Loft, [f64; 3], Loft) {
-    let joint = acromion + Vector3::new(-0.014, -0.040, 0.0) * size;
+    let joint = acromion + Vector3::new(-0.016, -0.050, 0.0) * size;
     let length = measures.get("arm_length") - 0.02 * size;
     let upper = scale("upper_arm");
     // The arm hangs far enough out to leave the widest part of the chest free.
@@ -593,7 +611,7 @@ fn arm(
     let hand = 0.18 * measures.get("height") / 1.68;
     let broad = (scale("wrist") + measures.get("height") / table.height) / 2.0;
     rows.extend(limb_rows(table.hand, |s| (length + s * hand, [broad; 2], size)));
-    let loft = Loft::new(frame, &rows, 0.012 * size, [0.045 * upper, 0.08 * hand]);
+    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.08 * hand]);
 
     let way = (Vector3::z() * 0.55 + frame.along * 0.83).normalize();
     let base = frame.outward([0.052 * size, -0.002 * size, length + 0.32 * hand]);
@@ -604,12 +622,12 @@ fn arm(
         u: [r * broad; 2],
         v: [r * broad; 2],
         centre: [0.0; 2],
-        fullness: 2.0,
+        fullness: 0.0,
     };
     let thumb = Loft::new(
         thumb_frame,
         &[row(0.0, 0.0135), row(0.035, 0.0125), row(0.058, 0.0105)],
-        0.005 * size,
+        |_| 0.005 * size,
         [0.013 * broad, 0.0105 * broad],
     );
     (loft, [0.3, 0.56, 1.0].map(|s| s * length), thumb)
@@ -627,7 +645,7 @@ fn limb_rows(table: &[LimbRow], place: impl Fn(f64) -> (f64, [f64; 2], f64)) -> 
                 u: [a * w, b * w],
                 v: [c * h, d * h],
                 centre: [e * shift, f * shift],
-                fullness: 2.0,
+                fullness: 0.0,
             }
         })
         .collect()
