@@ -1,7 +1,9 @@
 //! Edges as curves: between directions, through points, as bows of a circle; measuring and
 //! cutting them by arc length. Lengths in metres, directions in radians from +x anticlockwise.
 
-use kurbo::{Affine, BezPath, CubicBez, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Vec2};
+use kurbo::{
+    Affine, BezPath, CubicBez, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Vec2,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Accuracy of arc lengths, m.
@@ -164,7 +166,10 @@ pub fn bow_of_length(a: Point, b: Point, wanted: f64, left: bool) -> Option<BezP
 pub fn end_at(path: &mut BezPath, to: Point) {
     if let Some(last) = path.elements_mut().last_mut() {
         match last {
-            PathEl::MoveTo(p) | PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p) => {
+            PathEl::MoveTo(p)
+            | PathEl::LineTo(p)
+            | PathEl::QuadTo(_, p)
+            | PathEl::CurveTo(_, _, p) => {
                 *p = to;
             }
             PathEl::ClosePath => {}
@@ -184,12 +189,16 @@ pub fn start_at(path: &mut BezPath, from: Point) {
 pub fn through(points: &[Point], leaving: Option<f64>, arriving: Option<f64>) -> BezPath {
     let spans: Vec<Vec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let n = spans.len();
+    if let (1, None, None) = (n, leaving, arriving) {
+        return line(points[0], points[1]);
+    }
     let lengths: Vec<f64> =
         spans.iter().map(|v| libm::hypot(v.x, v.y).max(f64::MIN_POSITIVE)).collect();
     let alongs: Vec<f64> = spans.iter().map(|v| direction(*v)).collect();
     // psi[k]: turn of the polygon at point k, for inner points.
-    let psi: Vec<f64> =
-        (0..=n).map(|k| if k == 0 || k == n { 0.0 } else { turned(alongs[k] - alongs[k - 1]) }).collect();
+    let psi: Vec<f64> = (0..=n)
+        .map(|k| if k == 0 || k == n { 0.0 } else { turned(alongs[k] - alongs[k - 1]) })
+        .collect();
     // Tridiagonal equations for theta[k], the angle of the curve with span k at point k.
     let (mut sub, mut dia, mut sup, mut rhs) =
         (vec![0.0; n + 1], vec![1.0; n + 1], vec![0.0; n + 1], vec![0.0; n + 1]);
@@ -231,8 +240,7 @@ pub fn through(points: &[Point], leaving: Option<f64>, arriving: Option<f64>) ->
     path.move_to(points[0]);
     for k in 0..n {
         let leave = alongs[k] + theta[k];
-        let arrive =
-            if k + 1 == n { alongs[k] + theta[n] } else { alongs[k + 1] + theta[k + 1] };
+        let arrive = if k + 1 == n { alongs[k] + theta[n] } else { alongs[k + 1] + theta[k + 1] };
         let piece = between(points[k], points[k + 1], leave, arrive, None);
         if let Some(PathEl::CurveTo(b, c, d)) = piece.elements().get(1) {
             path.curve_to(*b, *c, *d);
@@ -368,14 +376,7 @@ pub fn mirror(a: Point, b: Point) -> Affine {
         2.0 * v.y * v.y / squared - 1.0,
         2.0 * v.x * v.y / squared,
     );
-    Affine::new([
-        xx,
-        xy,
-        xy,
-        yy,
-        a.x - xx * a.x - xy * a.y,
-        a.y - xy * a.x - yy * a.y,
-    ])
+    Affine::new([xx, xy, xy, yy, a.x - xx * a.x - xy * a.y, a.y - xy * a.x - yy * a.y])
 }
 
 #[cfg(test)]
@@ -389,8 +390,7 @@ mod tests {
     #[test]
     fn hobbys_handles_make_a_quarter_circle_nearly_round() {
         // For a quarter circle (theta = phi = 45°) the radius errs by less than 0.1 %.
-        let path =
-            between(Point::new(1.0, 0.0), Point::new(0.0, 1.0), PI / 2.0, PI, None);
+        let path = between(Point::new(1.0, 0.0), Point::new(0.0, 1.0), PI / 2.0, PI, None);
         for i in 0..=20 {
             let (p, _) = at(&path, length(&path) * f64::from(i) / 20.0);
             near(libm::hypot(p.x, p.y), 1.0, 1e-3);
@@ -466,6 +466,9 @@ mod tests {
         let map = mirror(Point::new(0.1, 0.0), Point::new(0.3, 0.4));
         let p = Point::new(0.7, -0.2);
         near((map * (map * p) - p).hypot(), 0.0, 1e-15);
-        assert_eq!(mirror(Point::ZERO, Point::new(0.0, -1.0)) * Point::new(0.0, 3.0), Point::new(0.0, 3.0));
+        assert_eq!(
+            mirror(Point::ZERO, Point::new(0.0, -1.0)) * Point::new(0.0, 3.0),
+            Point::new(0.0, 3.0)
+        );
     }
 }
