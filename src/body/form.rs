@@ -197,7 +197,7 @@ impl Form {
             neck: Part::loft(neck),
             brow: skull.middle.y + 0.012 * size,
             nape,
-            bust_half: chest.middle.x,
+            bust_half: measures.get("bust_gap").max(0.18 * measures.get("chest")) / 2.0,
             skull: Part::egg(skull),
             face: Part::egg(face),
             chest: Part::egg(chest),
@@ -263,7 +263,7 @@ impl Form {
     /// The whole body: negative inside, about metres near the skin.
     pub(super) fn value(&self, p: Point3<f64>) -> f64 {
         let arm = self.left_arm(Point3::new(p.x.abs(), p.y, p.z));
-        join(self.without_arms(p), arm, 0.055 * self.size)
+        join(self.without_arms(p), arm, 0.05 * self.size)
     }
 
     /// Value and gradient at `p`, by the four corners of a small tetrahedron.
@@ -416,8 +416,9 @@ fn trunk(
         .trunk
         .iter()
         .map(|[s, breadth, front, back, middle, fullness]| {
-            // The lowest section leaves room for the rounding below it.
-            let t = height.at(*s) + if *s == 0.0 { 0.02 * size } else { 0.0 };
+            // Stems beyond the stations, in tenths of a metre, end inside legs and neck.
+            let beyond = s - s.clamp(0.0, (STATIONS - 1) as f64);
+            let t = height.at(*s) + 0.1 * beyond * size;
             let (w, d) = (broad.at(*s), deep.at(*s));
             Row {
                 t,
@@ -436,7 +437,7 @@ fn trunk(
         &[levels[0] + 0.03 * size, levels[1] + 0.03 * size, levels[4], levels[6]],
         &[0.006 * size, 0.026 * size, 0.026 * size, 0.011 * size],
     );
-    Loft::new(frame, &rows, |t| sharp.at(t), [0.02 * size, 0.02 * size])
+    Loft::new(frame, &rows, |t| sharp.at(t), [0.015 * size, 0.03 * size])
 }
 
 /// The neck, from inside the trunk into the head.
@@ -459,13 +460,13 @@ fn head(height: f64, nape: f64, girth: f64, size: f64) -> (Egg, Egg) {
     // The head keeps its place above the neck when the body grows.
     let ahead = 0.012 * size;
     let skull = Egg {
-        middle: Point3::new(0.0, height - 0.098 * tall, ahead),
-        radii: Vector3::new(0.074 * girth, 0.095 * tall, 0.095 * girth),
-        up: 0.098 * tall,
+        middle: Point3::new(0.0, height - 0.092 * tall, ahead),
+        radii: Vector3::new(0.074 * girth, 0.088 * tall, 0.095 * girth),
+        up: 0.092 * tall,
     };
     let face = Egg {
-        middle: Point3::new(0.0, height - 0.140 * tall, ahead + 0.022 * girth),
-        radii: Vector3::new(0.055 * girth, 0.074 * tall, 0.062 * girth),
+        middle: Point3::new(0.0, height - 0.130 * tall, ahead + 0.020 * girth),
+        radii: Vector3::new(0.055 * girth, 0.073 * tall, 0.062 * girth),
         up: 0.08 * tall,
     };
     (skull, face)
@@ -493,7 +494,7 @@ fn chest(
             let stand = (corrections.get("bust").copied().unwrap_or(1.0) - 1.0) * BREAST_STAND;
             Egg {
                 middle: Point3::new(
-                    measures.get("bust_gap") / 2.0,
+                    measures.get("bust_gap") / 2.0 - 0.012 * size,
                     level + middle[1] * size,
                     front + middle[2] * round + stand,
                 ),
@@ -614,7 +615,7 @@ fn arm(
     let hand = 0.18 * measures.get("height") / 1.68;
     let broad = (scale("wrist") + measures.get("height") / table.height) / 2.0;
     rows.extend(limb_rows(table.hand, |s| (length + s * hand, [broad; 2], size)));
-    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.08 * hand]);
+    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.1 * hand]);
 
     let way = (Vector3::z() * 0.55 + frame.along * 0.83).normalize();
     let base = frame.outward([0.052 * size, -0.002 * size, length + 0.32 * hand]);
