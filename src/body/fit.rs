@@ -1,6 +1,6 @@
 //! Fitting: the form is measured with a tape and corrected until every girth is the asked one.
 
-use super::form::{Corrections, Form};
+use super::form::{BREAST_STAND, Corrections, Form};
 use super::landmark::{Station, Zone, stations};
 use super::measures::{Measures, cm};
 use super::tape::girth;
@@ -74,11 +74,14 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
             return refuse(request, measures, &found).map_or(Ok(form), |wrong| Err(vec![wrong]));
         }
         for (name, girth) in found {
-            let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
-            // A breast changes only the front of the girth: it takes a longer step.
-            let power = if name == "bust" { 4.0 } else { 1.15 };
-            if let Some(factor) = corrections.get_mut(name) {
-                *factor = (*factor * libm::pow(ratio, power)).clamp(0.3, 3.0);
+            let Some(factor) = corrections.get_mut(name) else { continue };
+            if name == "bust" {
+                // Moving the front out by one lengthens the tape by nearly two.
+                *factor += 0.55 * off(name, girth) / BREAST_STAND;
+                *factor = factor.clamp(0.0, 2.0);
+            } else {
+                let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
+                *factor = (*factor * libm::pow(ratio, 1.15)).clamp(0.3, 3.0);
             }
         }
         form = Form::new(request, measures, &corrections)?;

@@ -181,21 +181,22 @@ impl Loft {
         let square = 1.0 / (ca + sb);
         // An ellipse, blown up between its axes.
         let reach = square.sqrt() * (1.0 + s[6] * 4.0 * ca * sb * square * square);
-        let over = t - inner;
-        if over != 0.0 {
-            // Half an ellipsoid over the end section, by the usual estimate of its distance.
-            let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
-            let (i, j) = (over / cap, across / reach);
-            let k = (i * i + j * j).sqrt();
-            let (i, j) = (i / cap, j / reach);
-            return k * (k - 1.0) / (i * i + j * j).sqrt();
-        }
         // Slopes of the ellipse's reach along the axis and round the section.
         let along = reach * square * (ca / a * slope[side_u] + sb / b * slope[side_v]);
         let shift = cos * slope[4] + sin * slope[5];
         let round = square * cos * sin * (1.0 / (a * a) - 1.0 / (b * b));
         let steep = along + shift;
-        (across - reach) / (1.0 + steep * steep + round * round).sqrt()
+        let slant = (1.0 + steep * steep + round * round).sqrt();
+        let over = t - inner;
+        if over == 0.0 {
+            return (across - reach) / slant;
+        }
+        // Half an ellipsoid over the end section, by the usual estimate of its distance.
+        let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
+        let (i, j) = (over / cap, across / reach);
+        let k = (i * i + j * j).sqrt();
+        let (i, j) = (i / cap, j / reach);
+        k * (k - 1.0) / ((i * i + j * j).sqrt() * slant)
     }
 }
 
