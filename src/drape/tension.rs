@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 /// A thread under compression has negative lateral stiffness, which an implicit step may not
 /// take; with none at all a fold swings freely for the length of the step and overshoots.
 /// It stands in the matrix only, the force is exact.
-pub const SLACK: f64 = 0.02;
+pub const SLACK: f64 = 0.001;
 
 /// A stretch of thread between two knots.
 #[derive(Clone, Copy, Debug)]
