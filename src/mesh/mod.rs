@@ -2,3 +2,5 @@
 //! warp and weft, a triangulated band along its edges, matched seams, and the texture atlas.
 
 pub mod compiled;
+
+pub mod atlas;
