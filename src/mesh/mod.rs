@@ -6,6 +6,7 @@
 //! them gets its count of steps ([`spacing`]); then each panel is cut by itself ([`panel`]):
 //! its grid ([`lattice`]), the band along its edges ([`band`], [`triangulation`], [`improve`]).
 
+pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
@@ -82,7 +83,11 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     }
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = plan.cut(garment, &outlines, &cells)?;
-    Ok(assemble(garment, &plan, &spacing, &cells, cloths))
+    let mut compiled = assemble(garment, &plan, &spacing, &cells, cloths);
+    if options.coarsen <= 1.0 {
+        atlas::draw(garment, &mut compiled);
+    }
+    Ok(compiled)
 }
 
 /// Breakpoints and walks of everything that runs along the cut lines.
