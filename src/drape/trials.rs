@@ -19,6 +19,7 @@ fn flat(compiled: &Compiled, place: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Vector
 }
 
 fn rest(shop: &mut Workshop<'_>, dt: f64, calm: f64, speed: f64, most: usize) -> usize {
+    let mut still = 0;
     for step in 0..most {
         let manner = Manner {
             dt,
@@ -28,7 +29,12 @@ fn rest(shop: &mut Workshop<'_>, dt: f64, calm: f64, speed: f64, most: usize) ->
             ..Manner::default()
         };
         let taken = shop.step(&manner).expect("finite");
-        if taken.speed < speed {
+        if step % 300 == 299 {
+            println!("{step} {:?}", taken);
+        }
+        // A swing is slow where it turns round, but not for long.
+        still = if taken.speed < speed { still + 1 } else { 0 };
+        if still == 10 {
             return step;
         }
     }
