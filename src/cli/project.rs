@@ -1,12 +1,12 @@
 //! From a file on disk to the garment a command works on.
 
 use super::{Input, MessageFormat, Stop};
-use crate::diagnostic::{Diagnostic, FileId, json, render};
+use crate::diagnostic::{Diagnostic, FileId, Texts, json, render};
 use crate::evaluate;
 use crate::garment::Garment;
-use crate::world::World;
-use crate::world::disk::Disk;
+use crate::world::{Disk, World};
 use std::io::IsTerminal;
+use std::path::{Component, Path};
 
 /// A file that has been read, with the way its messages are told.
 pub(super) struct Project {
@@ -25,8 +25,19 @@ impl Project {
                 path.display()
             )));
         }
-        let (mut world, name) = Disk::beside(path).map_err(Stop::Call)?;
-        match world.open(&name) {
+        // A file below the current folder is named as the caller named it, and may use files
+        // beside its own folder; any other file has its own folder as its project.
+        let below = path.is_relative()
+            && path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+        let (folder, name) = match (below, path.parent(), path.file_name()) {
+            (false, Some(folder), Some(name)) => (folder, Path::new(name)),
+            _ => (Path::new("."), path.as_path()),
+        };
+        let Some(name) = name.to_str() else {
+            return Err(Stop::Call(format!("`{}` is not written in UTF-8", path.display())));
+        };
+        let mut world = Disk::new(folder);
+        match world.open(name) {
             Ok(root) => Ok(Project { world, root, format: input.message_format }),
             Err(why) => {
                 let told = Diagnostic::new("E0903", format!("cannot read `{}`", path.display()))
@@ -78,15 +89,15 @@ impl Project {
     }
 }
 
-fn tell(diagnostics: &[Diagnostic], world: &dyn World, format: MessageFormat) {
+fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
     if diagnostics.is_empty() {
         return;
     }
     match format {
-        MessageFormat::Json => eprint!("{}", json::lines(diagnostics, world)),
+        MessageFormat::Json => eprint!("{}", json::lines(diagnostics, texts)),
         MessageFormat::Human => {
             let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-            eprint!("{}", render::report(diagnostics, world, color, 100));
+            eprint!("{}", render::report(diagnostics, texts, color, 100));
         }
     }
 }

@@ -24,10 +24,8 @@ pub(super) fn lay(compiled: &Compiled, wrapped: &Wrapped, positions: &mut [Point
     };
     let hole: Vec<[f64; 2]> = panel.loops[1].iter().map(|k| of_particle(*k)).collect();
     let n = hole.len() as f64;
-    let middle = [
-        hole.iter().map(|p| p[0]).sum::<f64>() / n,
-        hole.iter().map(|p| p[1]).sum::<f64>() / n,
-    ];
+    let middle =
+        [hole.iter().map(|p| p[0]).sum::<f64>() / n, hole.iter().map(|p| p[1]).sum::<f64>() / n];
     let girth: f64 = (0..hole.len())
         .map(|k| {
             let (a, b) = (hole[k], hole[(k + 1) % hole.len()]);

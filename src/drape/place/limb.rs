@@ -67,9 +67,8 @@ pub(super) fn wrap(
         start + axis * station + (out * libm::cos(angle) + right * libm::sin(angle)) * r
     };
 
-    let cell = |p: &Point3<f64>| {
-        [p.x, p.y, p.z].map(|c| (c / CLEAR).floor().clamp(-1e6, 1e6) as i32)
-    };
+    let cell =
+        |p: &Point3<f64>| [p.x, p.y, p.z].map(|c| (c / CLEAR).floor().clamp(-1e6, 1e6) as i32);
     let mut taken = BTreeSet::new();
     for (number, other) in compiled.panels.iter().enumerate() {
         if done[number] {
@@ -79,9 +78,8 @@ pub(super) fn wrap(
     let collides = |moved: f64| {
         places.iter().any(|(_, p)| {
             let [i, j, k] = cell(&at(*p, moved));
-            (-1..=1).any(|a| {
-                (-1..=1).any(|b| (-1..=1).any(|c| taken.contains(&[i + a, j + b, k + c])))
-            })
+            (-1..=1)
+                .any(|a| (-1..=1).any(|b| (-1..=1).any(|c| taken.contains(&[i + a, j + b, k + c]))))
         })
     };
     let mut moved = 0.0;
