@@ -90,7 +90,7 @@ impl Look {
             gloss
         });
         let sheen = match fabric.finish {
-            Finish::Matte => Sheen { strength: 0.12, order: 1, tint: 0.5 },
+            Finish::Matte => Sheen { strength: 0.08, order: 1, tint: 0.7 },
             Finish::Satin => Sheen { strength: 0.04, order: 1, tint: 0.5 },
             Finish::Wool => Sheen { strength: 0.26, order: 1, tint: 0.6 },
             Finish::Raised => Sheen { strength: 0.45, order: 1, tint: 0.65 },
@@ -242,7 +242,7 @@ mod tests {
                 let white = Light3::repeat(1.0);
                 let sum: f32 = (0..4096)
                     .map(|path| {
-                        let pair = Sampler::new(0, 0, 0, path).pair();
+                        let pair = Sampler::new(0, [0, 0], path, 4096).pair();
                         let light = cosine_about(&threads.normal, pair);
                         look.shine(&white, &threads, &eye, &light).x * PI
                     })

@@ -8,6 +8,7 @@ mod backdrop;
 mod camera;
 mod figure;
 mod finish;
+mod floor;
 mod hierarchy;
 mod lamp;
 mod pixel;

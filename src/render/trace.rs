@@ -27,14 +27,7 @@ pub struct Set<'a> {
 pub enum Seen {
     /// Cloth, a body or a solid.
     Figure(Seeing),
-    /// The floor: light that arrives there, and what would arrive were it empty.
-    Floor {
-        /// With the figure.
-        arrives: Light3,
-        /// Without.
-        empty: Light3,
-    },
-    /// The paper behind.
+    /// The paper, behind or on the floor.
     Paper,
 }
 
@@ -191,10 +184,7 @@ impl<'a> Tracer<'a> {
             let place = self.place(&hit, ray, Some(spread * hit.distance));
             return Seen::Figure(self.seeing(ray, &place, hit.distance, sampler));
         }
-        match self.on_floor(ray) {
-            Some(at) => self.on_empty_floor(&at, sampler),
-            None => Seen::Paper,
-        }
+        Seen::Paper
     }
 
     /// Light at a place of the figure, sent towards the eye.
@@ -318,9 +308,8 @@ impl<'a> Tracer<'a> {
         light * FLOOR
     }
 
-    /// A look at the floor: light with the figure and without, by the same numbers, so that the
-    /// floor is free of grain where the figure takes nothing away.
-    fn on_empty_floor(&mut self, at: &Vector, sampler: &mut Sampler) -> Seen {
+    /// Light on the floor with the figure and, by the same numbers, without.
+    pub fn light_on_floor(&mut self, at: &Vector, sampler: &mut Sampler) -> (Light3, Light3) {
         let origin = at + Vector::y() * self.lift;
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
@@ -336,11 +325,19 @@ impl<'a> Tracer<'a> {
         let ray = Ray { origin, direction, reach: f32::INFINITY };
         empty += self.lighting.dome.radiance(&direction);
         arrives += self.light_along(&ray, 1, sampler);
-        Seen::Floor { arrives, empty }
+        (arrives, empty)
+    }
+
+    /// 0 on the floor about the figure, 1 where shadows have run out, far away.
+    pub fn openness(&self, at: &Vector) -> f32 {
+        let off = at - self.round.0;
+        let away = (off.x * off.x + off.z * off.z).sqrt() / self.round.1;
+        let share = ((away - 0.55) / 0.45).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share)
     }
 
     /// Where the ray meets the floor, if it does within the round on which shadows fall.
-    fn on_floor(&self, ray: &Ray) -> Option<Vector> {
+    pub fn on_floor(&self, ray: &Ray) -> Option<Vector> {
         if !self.floor || ray.direction.y > -1e-6 {
             return None;
         }
