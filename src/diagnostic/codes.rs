@@ -96,6 +96,7 @@ pub const CODES: &[Code] = &[
     code("W0602", "yarns and mass that do not agree"),
     code("W0603", "a cloth that falls into layers"),
     code("W0604", "threads closer than they are thick"),
+    code("W0605", "a motif without figure"),
     code("W0703", "much more cloth than this way of wearing needs"),
 ];
 

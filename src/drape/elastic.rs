@@ -12,7 +12,8 @@ pub type Places = [Vector3<f64>];
 /// Elastic energy, J: tension, shear and bending of the whole cloth.
 pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     let at = |k: u32| x[k as usize];
-    let springs: f64 = cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
+    let springs: f64 =
+        cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
     let cells: f64 = cloth.cells.iter().map(|c| c.energy(&c.corners.map(at))).sum();
     let triangles: f64 = cloth.triangles.iter().map(|t| t.energy(&t.corners.map(at))).sum();
     let folds: f64 = cloth
@@ -133,8 +134,12 @@ fn bend(cloth: &Cloth, x: &Places, scale: f64, matrix: &mut Matrix, force: &mut 
         *block = [[0.0; 4]; 3];
         add_scalar(block, s * scale);
     });
-    diagonal.par_iter_mut().zip(force.par_iter_mut()).enumerate().with_min_len(ROWS).for_each(
-        |(i, (block, force))| {
+    diagonal
+        .par_iter_mut()
+        .zip(force.par_iter_mut())
+        .enumerate()
+        .with_min_len(ROWS)
+        .for_each(|(i, (block, force))| {
             *block = [[0.0; 4]; 3];
             add_scalar(block, cloth.fold_diagonal[i] * scale);
             // Differences to the knot itself, so that the far place of the cloth does not count.
@@ -144,6 +149,5 @@ fn bend(cloth: &Cloth, x: &Places, scale: f64, matrix: &mut Matrix, force: &mut 
                 sum += (x[j as usize] - x[i]) * *s;
             }
             *force = -sum;
-        },
-    );
+        });
 }

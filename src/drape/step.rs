@@ -149,7 +149,8 @@ impl<'a> Workshop<'a> {
 
     /// Energy of deformation and height (in the given gravity) and of movement, J.
     pub fn energy(&self, gravity: f64) -> [f64; 2] {
-        let height: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
+        let height: f64 =
+            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
         [elastic::energy(&self.cloth, &self.x) + height, self.movement()]
     }
 
@@ -182,10 +183,16 @@ impl<'a> Workshop<'a> {
         let base = self.assemble(&start, &speeds, manner);
         let mut ahead: Vec<Vector3<f64>> =
             speeds.iter().map(|v| v * dt + down * (dt * dt)).collect();
+        // Friction is judged by the slide of the last step: gravity's own share is not slid yet.
+        let mut slide: Vec<Vector3<f64>> = speeds.iter().map(|v| v * dt).collect();
         let mut iterations = 0;
         for pass in 0..PASSES {
-            let pushes = self.contact.push(&self.cloth, &start, &ahead, manner.grip);
+            let pushes = self.contact.push(&self.cloth, &start, &ahead, &slide, manner.grip);
             let b = self.load(&base, &pushes);
+            self.contact.guide(&self.cloth, &start, &mut ahead);
+            for (dx, ahead) in self.dx.iter_mut().zip(&ahead) {
+                *dx = lane(ahead);
+            }
             if pass == 0 {
                 self.factor.refresh(&self.matrix);
             }
@@ -206,6 +213,7 @@ impl<'a> Workshop<'a> {
             if !self.contact.runs_into(&self.cloth, &start, &ahead, &pushes) {
                 break;
             }
+            slide.copy_from_slice(&ahead);
         }
         let share = self.bound(&start, &mut ahead, manner);
         let dt = dt * share;
@@ -274,8 +282,7 @@ impl<'a> Workshop<'a> {
             self.force[knot as usize] += force;
             add(&mut matrix.diagonal[knot as usize], &k);
         }
-        let normals =
-            if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
+        let normals = if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
         for (i, force) in self.force.iter_mut().enumerate() {
             let mass = self.cloth.mass[i];
             force.y -= mass * manner.gravity;
