@@ -14,7 +14,9 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Rounds of evening out.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 5;
+/// Nodes along the side of a block that is passed over as a whole where the skin is far.
+const BLOCK: usize = 4;
 /// Share of the way to the neighbours' middle that a vertex moves in a round.
 const MOVE: f64 = 0.5;
 
@@ -110,13 +112,38 @@ impl Grid {
         let count: [usize; 3] = std::array::from_fn(|k| {
             ((bounds.high[k] - low[k] + 1.5 * cell) / cell).ceil().max(2.0) as usize + 1
         });
-        let values = (0..count[2])
+        let at = |place: [usize; 3]| low + Vector3::from(place.map(|n| n as f64)) * cell;
+        // Blocks far from the skin take their middle's value: only its sign is used.
+        let blocks = count.map(|n| n.div_ceil(BLOCK));
+        let half = (BLOCK - 1) as f64 / 2.0;
+        let far = 2.2 * half.max(1.0) * cell * 3.0_f64.sqrt();
+        let slabs: Vec<Vec<f64>> = (0..blocks[2])
             .into_par_iter()
-            .flat_map_iter(|z| {
-                (0..count[1]).flat_map(move |y| (0..count[0]).map(move |x| [x, y, z]))
+            .map(|bz| {
+                let layers = BLOCK.min(count[2] - bz * BLOCK);
+                let mut slab = vec![0.0; layers * count[1] * count[0]];
+                for by in 0..blocks[1] {
+                    for bx in 0..blocks[0] {
+                        let start = [bx * BLOCK, by * BLOCK, bz * BLOCK];
+                        let middle = value(at(start) + Vector3::repeat(half * cell));
+                        for z in 0..layers {
+                            for y in start[1]..(start[1] + BLOCK).min(count[1]) {
+                                for x in start[0]..(start[0] + BLOCK).min(count[0]) {
+                                    slab[(z * count[1] + y) * count[0] + x] = if middle.abs() > far
+                                    {
+                                        middle
+                                    } else {
+                                        value(at([x, y, start[2] + z]))
+                                    };
+                                }
+                            }
+                        }
+                    }
+                }
+                slab
             })
-            .map(|place| value(low + Vector3::from(place.map(|n| n as f64)) * cell))
             .collect();
+        let values = slabs.concat();
         Grid { low, cell, count, values }
     }
 
@@ -259,15 +286,8 @@ pub(super) fn extract(
             })
             .collect();
     }
-    for _ in 0..2 {
-        vertices = placed.iter().map(|(p, _)| *p).collect();
-        placed = settle(&vertices);
-    }
     vertices = placed.iter().map(|(p, _)| *p).collect();
-    let normals: Vec<Vector3<f64>> = vertices
-        .par_iter()
-        .map(|p| slope(*p).1.try_normalize(1e-9).unwrap_or_else(Vector3::y))
-        .collect();
+    let (vertices, normals): (Vec<_>, Vec<_>) = settle(&vertices).into_iter().unzip();
     let mut triangles = Vec::with_capacity(quads.len() * 2);
     for [a, b, c, d] in quads {
         let at = |i: u32| vertices[i as usize];

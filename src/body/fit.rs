@@ -1,6 +1,6 @@
 //! Fitting: the form is measured with a tape and corrected until every girth is the asked one.
 
-use super::form::{Corrections, Form};
+use super::form::{BREAST_STAND, Corrections, Form};
 use super::landmark::{Station, Zone, stations};
 use super::measures::{Measures, cm};
 use super::tape::girth;
@@ -74,11 +74,14 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
             return refuse(request, measures, &found).map_or(Ok(form), |wrong| Err(vec![wrong]));
         }
         for (name, girth) in found {
-            let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
-            // A breast changes only the front of the girth: it takes a longer step.
-            let power = if name == "bust" { 4.0 } else { 1.15 };
-            if let Some(factor) = corrections.get_mut(name) {
-                *factor = (*factor * libm::pow(ratio, power)).clamp(0.3, 3.0);
+            let Some(factor) = corrections.get_mut(name) else { continue };
+            if name == "bust" {
+                // Moving the front out by one lengthens the tape by nearly two.
+                *factor += 0.55 * off(name, girth) / BREAST_STAND;
+                *factor = factor.clamp(0.0, 2.0);
+            } else {
+                let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
+                *factor = (*factor * libm::pow(ratio, 1.15)).clamp(0.3, 3.0);
             }
         }
         form = Form::new(request, measures, &corrections)?;
@@ -111,7 +114,9 @@ fn refuse(
 /// Girth of the form at a station, m.
 fn felt(form: &Form, station: &Station) -> f64 {
     let value = |p: Point3<f64>| match station.zone {
-        Zone::Trunk | Zone::Leg => form.without_arms(p),
+        Zone::Trunk => form.without_arms(p),
+        // The other leg lies beyond the middle plane.
+        Zone::Leg => form.without_arms(p).max(-p.x),
         Zone::Arm => form.left_arm(p),
     };
     let u = any_across(station.axis);
@@ -128,25 +133,39 @@ fn felt(form: &Form, station: &Station) -> f64 {
     girth(&points)
 }
 
-/// Distance from an inner point to the skin along `way`, m: strides outwards, then halvings.
+/// Distance from an inner point to the skin along `way`, m: strides outwards until outside, then
+/// false position.
+///
+/// # References
+/// Dowell and Jarratt 1971, "A modified regula falsi method" (the Illinois rule).
 pub(super) fn skin(
     value: &impl Fn(Point3<f64>) -> f64,
     from: Point3<f64>,
     way: Vector3<f64>,
     stride: f64,
 ) -> f64 {
-    let mut inner = 0.0;
-    let mut outer = stride;
-    while value(from + way * outer) < 0.0 && outer < 2.0 {
-        inner = outer;
+    let at = |reach: f64| value(from + way * reach);
+    let (mut inner, mut outer) = (0.0, stride);
+    let (mut f, mut g) = (at(inner), at(outer));
+    while g < 0.0 && outer < 2.0 {
+        (inner, f) = (outer, g);
         outer += stride;
+        g = at(outer);
     }
     for _ in 0..40 {
-        let middle = (inner + outer) / 2.0;
-        if value(from + way * middle) < 0.0 {
-            inner = middle;
+        if outer - inner < 1e-7 || f >= 0.0 {
+            break;
+        }
+        let middle = (inner + (outer - inner) * (f / (f - g))).clamp(inner, outer);
+        let h = at(middle);
+        if h.abs() < 1e-8 {
+            return middle;
+        }
+        // The end that stays weighs half, so that neither end stays for long.
+        if h < 0.0 {
+            (inner, f, g) = (middle, h, g / 2.0);
         } else {
-            outer = middle;
+            (outer, g, f) = (middle, h, f / 2.0);
         }
     }
     (inner + outer) / 2.0

@@ -10,8 +10,12 @@ use crate::garment::scene::{BodyRequest, Figure};
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 
-/// Beyond this distance from a part's box, the part cannot touch any fillet, m.
-const FAR: f64 = 0.09;
+/// Beyond this distance from a part's box, the part cannot touch any fillet, m: more than
+/// the widest fillet of the tallest body.
+const FAR: f64 = 0.085;
+
+/// How far a breast moves to the front for a unit of its correction, m.
+pub(super) const BREAST_STAND: f64 = 0.1;
 
 /// What the tapes correct: a factor for each girth, 1 at first.
 pub(super) type Corrections = BTreeMap<&'static str, f64>;
@@ -172,7 +176,7 @@ impl Form {
         let across = measures.get("shoulder") * libm::cos(table.slope);
         let side_of_neck = measures.get("neck") / std::f64::consts::TAU * 1.02;
         let acromion =
-            Point3::new(side_of_neck + across, levels[6], (table.trunk[9][4] - 0.004) * size);
+            Point3::new(side_of_neck + across, levels[6], (table.shoulder()[4] + 0.002) * size);
 
         let trunk = trunk(request.figure, table, &levels, &scale, acromion.x, size);
         let neck = neck(table, root, scale("neck"), size, height - nape);
@@ -187,13 +191,13 @@ impl Form {
         // Where a shirt's collar lies: square to the neck, above the slope of the shoulders.
         let tilt = table.lean + 0.08;
         let upward = Vector3::new(0.0, libm::cos(tilt), libm::sin(tilt));
-        let middle = neck.centre(0.088 * size);
+        let middle = neck.centre(0.078 * size);
         Ok(Form {
             trunk: Part::loft(trunk),
             neck: Part::loft(neck),
             brow: skull.middle.y + 0.012 * size,
             nape,
-            bust_half: chest.middle.x,
+            bust_half: measures.get("bust_gap").max(0.18 * measures.get("chest")) / 2.0,
             skull: Part::egg(skull),
             face: Part::egg(face),
             chest: Part::egg(chest),
@@ -220,15 +224,30 @@ impl Form {
         let soft = 0.008 * self.size;
         let q = Point3::new((p.x * p.x + soft * soft).sqrt(), p.y, p.z);
         let size = self.size;
-        let mut value = self.trunk.value(p);
+        let mut value = self.trunk.value(p) + self.furrow(p);
         value = join(value, self.chest.value(q), self.chest_blend);
         value = join(value, self.seat.value(q), self.seat_blend);
         value = join(value, self.neck.value(p), 0.035 * size);
         let head = join(self.skull.value(p), self.face.value(p), 0.045 * size);
         value = join(value, head, 0.02 * size);
-        value = join(value, self.left_leg(q), 0.04 * size);
+        value = join(value, self.left_leg(q), 0.032 * size);
         // Flat soles.
         -join(-value, p.y, 0.006 * size)
+    }
+
+    /// Depth of the furrow along the spine at `p`, m.
+    fn furrow(&self, p: Point3<f64>) -> f64 {
+        let [_, hip, .., underarm, acromion, _] = self.levels;
+        let (low, high) = (hip + 0.05 * self.size, (underarm + acromion) / 2.0);
+        if p.z > -0.02 * self.size || p.y < low || p.y > high {
+            return 0.0;
+        }
+        let along = (p.y - low) / (high - low);
+        let across = p.x / (0.022 * self.size);
+        let bell = libm::exp(-across * across);
+        let rise = 16.0 * along * along * (1.0 - along) * (1.0 - along);
+        let back = ((-p.z / self.size - 0.02) / 0.03).min(1.0);
+        0.006 * self.size * bell * rise * back
     }
 
     /// The left leg alone.
@@ -244,7 +263,7 @@ impl Form {
     /// The whole body: negative inside, about metres near the skin.
     pub(super) fn value(&self, p: Point3<f64>) -> f64 {
         let arm = self.left_arm(Point3::new(p.x.abs(), p.y, p.z));
-        join(self.without_arms(p), arm, 0.04 * self.size)
+        join(self.without_arms(p), arm, 0.05 * self.size)
     }
 
     /// Value and gradient at `p`, by the four corners of a small tetrahedron.
@@ -382,7 +401,7 @@ fn trunk(
 ) -> Loft {
     let stations: Vec<f64> = (0..STATIONS).map(|k| k as f64).collect();
     let height = Curve::new(&stations, levels);
-    let shoulders = (acromion - 0.018 * size) / table.trunk[9][1];
+    let shoulders = (acromion - 0.018 * size) / table.shoulder()[1];
     let (hip, waist, neck) = (scale("hip"), scale("waist"), scale("neck"));
     let (rib, chest) = match figure {
         Figure::Female => (scale("underbust"), scale("underbust")),
@@ -397,8 +416,9 @@ fn trunk(
         .trunk
         .iter()
         .map(|[s, breadth, front, back, middle, fullness]| {
-            // The lowest section leaves room for the rounding below it.
-            let t = height.at(*s) + if *s == 0.0 { 0.03 * size } else { 0.0 };
+            // Stems beyond the stations, in tenths of a metre, end inside legs and neck.
+            let beyond = s - s.clamp(0.0, (STATIONS - 1) as f64);
+            let t = height.at(*s) + 0.1 * beyond * size;
             let (w, d) = (broad.at(*s), deep.at(*s));
             Row {
                 t,
@@ -411,7 +431,13 @@ fn trunk(
         .collect();
     let frame =
         Frame { origin: Point3::origin(), u: Vector3::x(), v: Vector3::z(), along: Vector3::y() };
-    Loft::new(frame, &rows, 0.012 * size, [0.03 * size, 0.02 * size])
+    // Soft along the ribs, sharper where the shoulders turn into the neck and where the seat
+    // draws in between the legs.
+    let sharp = Curve::new(
+        &[levels[0] + 0.03 * size, levels[1] + 0.03 * size, levels[4], levels[6]],
+        &[0.006 * size, 0.026 * size, 0.026 * size, 0.011 * size],
+    );
+    Loft::new(frame, &rows, |t| sharp.at(t), [0.015 * size, 0.03 * size])
 }
 
 /// The neck, from inside the trunk into the head.
@@ -425,7 +451,7 @@ fn neck(table: &Template, root: Point3<f64>, girth: f64, size: f64, above: f64) 
         v: Vector3::new(0.0, -sin, cos),
         along: Vector3::new(0.0, cos, sin),
     };
-    Loft::new(frame, &rows, 0.01 * size, [0.03 * size, 0.03 * size])
+    Loft::new(frame, &rows, |_| 0.01 * size, [0.03 * size, 0.03 * size])
 }
 
 /// Skull and face: an egg with a chin, without features.
@@ -434,13 +460,13 @@ fn head(height: f64, nape: f64, girth: f64, size: f64) -> (Egg, Egg) {
     // The head keeps its place above the neck when the body grows.
     let ahead = 0.012 * size;
     let skull = Egg {
-        middle: Point3::new(0.0, height - 0.098 * tall, ahead),
-        radii: Vector3::new(0.074 * girth, 0.095 * tall, 0.095 * girth),
-        up: 0.098 * tall,
+        middle: Point3::new(0.0, height - 0.092 * tall, ahead),
+        radii: Vector3::new(0.074 * girth, 0.088 * tall, 0.095 * girth),
+        up: 0.092 * tall,
     };
     let face = Egg {
-        middle: Point3::new(0.0, height - 0.145 * tall, ahead + 0.026 * girth),
-        radii: Vector3::new(0.056 * girth, 0.08 * tall, 0.062 * girth),
+        middle: Point3::new(0.0, height - 0.130 * tall, ahead + 0.020 * girth),
+        radii: Vector3::new(0.055 * girth, 0.073 * tall, 0.062 * girth),
         up: 0.08 * tall,
     };
     (skull, face)
@@ -461,29 +487,25 @@ fn chest(
     let front = trunk.centre(level).z + trunk.reach_at(level)[2];
     match figure {
         Figure::Female => {
-            // Fullness: what the bust has more than the ribs, against the reference body.
+            // Its size follows what the bust has more than the ribs; how far it stands out is
+            // left to the tape.
             let gain = (measures.get("bust") - measures.get("underbust")) / 0.13;
-            let fill = corrections.get("bust").copied().unwrap_or(1.0) * gain.max(0.2).sqrt();
-            let round = fill.sqrt();
-            let reference = 0.081;
+            let round = libm::cbrt(gain.clamp(0.3, 3.0));
+            let stand = (corrections.get("bust").copied().unwrap_or(1.0) - 1.0) * BREAST_STAND;
             Egg {
                 middle: Point3::new(
-                    measures.get("bust_gap") / 2.0,
+                    measures.get("bust_gap") / 2.0 - 0.012 * size,
                     level + middle[1] * size,
-                    front + (middle[2] - reference) * fill.min(1.3),
+                    front + middle[2] * round + stand,
                 ),
-                radii: Vector3::new(radii[0] * round, radii[1] * round, radii[2] * fill),
-                up: up * size,
+                radii: Vector3::from(radii) * round,
+                up: up * round,
             }
         }
         Figure::Male => {
             let wide = measures.get("chest");
             Egg {
-                middle: Point3::new(
-                    middle[0] * wide,
-                    level + middle[1] * size,
-                    front - 0.104 + middle[2],
-                ),
+                middle: Point3::new(middle[0] * wide, level + middle[1] * size, front + middle[2]),
                 radii: Vector3::new(radii[0] * wide, radii[1] * size, radii[2]),
                 up: up * size,
             }
@@ -517,14 +539,14 @@ fn leg(
     let wider = rows
         .iter()
         .filter(|row| row.t <= crotch)
-        .map(|row| row.u[1] + 0.011 * size - row.centre[0])
+        .map(|row| row.u[1] + 0.017 * size - row.centre[0])
         .fold(0.0, f64::max);
     for row in &mut rows {
         row.centre[0] += wider;
     }
     let frame =
         Frame { origin: Point3::origin(), u: Vector3::x(), v: Vector3::z(), along: Vector3::y() };
-    let loft = Loft::new(frame, &rows, 0.014 * size, [0.02 * size, 0.05 * size]);
+    let loft = Loft::new(frame, &rows, |_| 0.014 * size, [0.02 * size, 0.05 * size]);
     (loft, [0.92, 0.6, 0.43, 0.12].map(|s| s * crotch))
 }
 
@@ -548,11 +570,11 @@ fn foot(leg: &Loft, grown: f64, size: f64) -> Loft {
                 u: [half * grown; 2],
                 v: [(top - middle) * grown, (middle + 0.012) * grown],
                 centre: [side * grown, middle * grown],
-                fullness: 2.3,
+                fullness: 0.05,
             }
         })
         .collect();
-    Loft::new(frame, &rows, 0.01 * size, [0.03 * grown, 0.032 * grown])
+    Loft::new(frame, &rows, |_| 0.01 * size, [0.03 * grown, 0.032 * grown])
 }
 
 /// The left arm with its hand; ways to the middle of the upper arm, the elbow and the wrist; the
@@ -566,7 +588,7 @@ fn arm(
     chest_level: f64,
     size: f64,
 ) -> (Loft, [f64; 3], Loft) {
-    let joint = acromion + Vector3::new(-0.014, -0.040, 0.0) * size;
+    let joint = acromion + Vector3::new(-0.016, -0.045, 0.0) * size;
     let length = measures.get("arm_length") - 0.02 * size;
     let upper = scale("upper_arm");
     // The arm hangs far enough out to leave the widest part of the chest free.
@@ -593,7 +615,7 @@ fn arm(
     let hand = 0.18 * measures.get("height") / 1.68;
     let broad = (scale("wrist") + measures.get("height") / table.height) / 2.0;
     rows.extend(limb_rows(table.hand, |s| (length + s * hand, [broad; 2], size)));
-    let loft = Loft::new(frame, &rows, 0.012 * size, [0.045 * upper, 0.08 * hand]);
+    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.1 * hand]);
 
     let way = (Vector3::z() * 0.55 + frame.along * 0.83).normalize();
     let base = frame.outward([0.052 * size, -0.002 * size, length + 0.32 * hand]);
@@ -604,12 +626,12 @@ fn arm(
         u: [r * broad; 2],
         v: [r * broad; 2],
         centre: [0.0; 2],
-        fullness: 2.0,
+        fullness: 0.0,
     };
     let thumb = Loft::new(
         thumb_frame,
         &[row(0.0, 0.0135), row(0.035, 0.0125), row(0.058, 0.0105)],
-        0.005 * size,
+        |_| 0.005 * size,
         [0.013 * broad, 0.0105 * broad],
     );
     (loft, [0.3, 0.56, 1.0].map(|s| s * length), thumb)
@@ -627,7 +649,7 @@ fn limb_rows(table: &[LimbRow], place: impl Fn(f64) -> (f64, [f64; 2], f64)) -> 
                 u: [a * w, b * w],
                 v: [c * h, d * h],
                 centre: [e * shift, f * shift],
-                fullness: 2.0,
+                fullness: 0.0,
             }
         })
         .collect()

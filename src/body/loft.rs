@@ -16,7 +16,7 @@ pub(super) struct Row {
     pub(super) v: [f64; 2],
     /// Centre of the section off the axis, along u and v.
     pub(super) centre: [f64; 2],
-    /// Exponent of the oval: 2 is an ellipse, more is fuller.
+    /// How much fuller than an ellipse the oval is between its axes, as a share of its reach.
     pub(super) fullness: f64,
 }
 
@@ -71,20 +71,26 @@ pub(super) struct Loft {
 }
 
 impl Loft {
-    /// A loft through `rows` (at least one, rising in `t`), rounded over `smooth` m along the
-    /// axis, with ends rounded over `caps` m.
-    pub(super) fn new(frame: Frame, rows: &[Row], smooth: f64, caps: [f64; 2]) -> Loft {
+    /// A loft through `rows` (at least one, rising in `t`), rounded along the axis over the width
+    /// that `smooth` gives for each `t` (m), with ends rounded over `caps` m.
+    pub(super) fn new(
+        frame: Frame,
+        rows: &[Row],
+        smooth: impl Fn(f64) -> f64,
+        caps: [f64; 2],
+    ) -> Loft {
         let first = rows.first().map_or(0.0, |r| r.t);
         let last = rows.last().map_or(0.0, |r| r.t).max(first + STEP);
         let count = ((last - first) / STEP).ceil() as usize + 1;
         let places: Vec<f64> = rows.iter().map(|r| r.t).collect();
+        let widths: Vec<f64> = (0..count).map(|i| smooth(first + STEP * i as f64)).collect();
         let mut table = vec![[0.0; COLUMNS]; count];
         for column in 0..COLUMNS {
             let values: Vec<f64> = rows.iter().map(|r| r.columns()[column]).collect();
             let curve = Curve::new(&places, &values);
             let mut line: Vec<f64> =
                 (0..count).map(|i| curve.at(first + STEP * i as f64)).collect();
-            soften(&mut line, smooth);
+            soften(&mut line, &widths);
             for (row, value) in table.iter_mut().zip(line) {
                 row[column] = value;
             }
@@ -166,47 +172,48 @@ impl Loft {
         let across = (x * x + y * y).sqrt();
         let side_u = usize::from(x < 0.0);
         let side_v = 2 + usize::from(y < 0.0);
-        let (a, b, n) = (s[side_u].max(1e-4), s[side_v].max(1e-4), s[6]);
+        let (a, b) = (s[side_u].max(1e-4), s[side_v].max(1e-4));
         if across < 1e-6 {
             return (t - inner).abs() - a.min(b);
         }
         let (cos, sin) = (x / across, y / across);
-        let (ca, sb) = (libm::pow(cos.abs() / a, n), libm::pow(sin.abs() / b, n));
-        let reach = libm::pow(ca + sb, -1.0 / n);
+        let (ca, sb) = (cos * cos / (a * a), sin * sin / (b * b));
+        let square = 1.0 / (ca + sb);
+        // An ellipse, blown up between its axes.
+        let reach = square.sqrt() * (1.0 + s[6] * 4.0 * ca * sb * square * square);
+        // Slopes of the ellipse's reach along the axis and round the section.
+        let along = reach * square * (ca / a * slope[side_u] + sb / b * slope[side_v]);
+        let shift = cos * slope[4] + sin * slope[5];
+        let round = square * cos * sin * (1.0 / (a * a) - 1.0 / (b * b));
+        let steep = along + shift;
+        let slant = (1.0 + steep * steep + round * round).sqrt();
         let over = t - inner;
-        if over != 0.0 {
-            // Half an ellipsoid over the end section, by the usual estimate of its distance.
-            let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
-            let (i, j) = (over / cap, across / reach);
-            let (k, l) = ((i * i + j * j).sqrt(), {
-                let (i, j) = (i / cap, j / reach);
-                (i * i + j * j).sqrt()
-            });
-            return k * (k - 1.0) / l;
+        if over == 0.0 {
+            return (across - reach) / slant;
         }
-        // Slopes of the reach along the axis and round the section.
-        let rise = libm::pow(reach, n + 1.0);
-        let along = rise * (ca / a * slope[side_u] + sb / b * slope[side_v]);
-        let shift = -(cos * slope[4] + sin * slope[5]);
-        let round = {
-            let grow = |term: f64, c: f64| if c.abs() > 1e-9 { term / c } else { 0.0 };
-            rise * (grow(ca, cos) * sin - grow(sb, sin) * cos) / reach
-        };
-        let steep = along - shift;
-        (across - reach) / (1.0 + steep * steep + round * round).sqrt()
+        // Half an ellipsoid over the end section, by the usual estimate of its distance.
+        let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
+        let (i, j) = (over / cap, across / reach);
+        let k = (i * i + j * j).sqrt();
+        let (i, j) = (i / cap, j / reach);
+        k * (k - 1.0) / ((i * i + j * j).sqrt() * slant)
     }
 }
 
-/// Rounds a line of values over `width` m by repeated means of neighbours; ends stay level.
-fn soften(line: &mut [f64], width: f64) {
+/// Rounds a line of values by repeated means of neighbours, each place over its own width (m);
+/// ends stay level.
+fn soften(line: &mut [f64], widths: &[f64]) {
     // Each pass adds a variance of half a step squared.
-    let passes = (2.0 * width * width / (STEP * STEP)).round() as usize;
+    let passes: Vec<usize> =
+        widths.iter().map(|w| (2.0 * w * w / (STEP * STEP)).round() as usize).collect();
     let mut next = line.to_vec();
     let last = line.len().saturating_sub(1);
-    for _ in 0..passes {
+    for pass in 0..passes.iter().copied().max().unwrap_or(0) {
         for i in 0..line.len() {
-            let (before, after) = (line[i.saturating_sub(1)], line[(i + 1).min(last)]);
-            next[i] = (before + 2.0 * line[i] + after) / 4.0;
+            if passes[i] > pass {
+                let (before, after) = (line[i.saturating_sub(1)], line[(i + 1).min(last)]);
+                next[i] = (before + 2.0 * line[i] + after) / 4.0;
+            }
         }
         line.copy_from_slice(&next);
     }
@@ -281,8 +288,8 @@ mod tests {
             v: Vector3::z(),
             along: Vector3::y(),
         };
-        let row = |t| Row { t, u: [0.05; 2], v: [0.05; 2], centre: [0.0; 2], fullness: 2.0 };
-        let loft = Loft::new(frame, &[row(0.0), row(0.4)], 0.01, [0.05; 2]);
+        let row = |t| Row { t, u: [0.05; 2], v: [0.05; 2], centre: [0.0; 2], fullness: 0.0 };
+        let loft = Loft::new(frame, &[row(0.0), row(0.4)], |_| 0.01, [0.05; 2]);
         for (p, distance) in [
             (Point3::new(0.2, 0.4, 0.3), 0.05),
             (Point3::new(0.1, 0.4, 0.33), -0.02),

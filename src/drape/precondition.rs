@@ -101,15 +101,13 @@ impl Run {
                 let scaled = product(&w, &self.inverse[j]);
                 subtract_by_transposed(&mut pivot, &scaled, &w);
             }
-            // A pivot that leaving out the fill has made too small would spoil the whole run;
-            // the matrix's own block keeps the factor positive.
-            self.inverse[i] = inverse_if_firm(&pivot, own).unwrap_or_else(|| {
-                inverse_if_firm(own, own).unwrap_or([
-                    [1.0, 0.0, 0.0, 0.0],
-                    [0.0, 1.0, 0.0, 0.0],
-                    [0.0, 0.0, 1.0, 0.0],
-                ])
-            });
+            // Pivots that leaving out the fill has made too small would spoil the whole run; the
+            // matrix's own block keeps the factor positive.
+            let firm = decompose(own).map(|own| own.pivots.map(|p| FIRM * p));
+            self.inverse[i] = decompose(&pivot)
+                .filter(|d| firm.is_some_and(|f| (0..3).all(|k| d.pivots[k] > f[k])))
+                .or_else(|| decompose(own))
+                .map_or([[0.0; 4]; 3], |d| d.inverse());
         }
     }
 
@@ -160,35 +158,41 @@ fn subtract_by_transposed(w: &mut Block, a: &Block, b: &Block) {
     }
 }
 
-/// The inverse of a symmetric block whose pivots are no less than a hundredth of `measure`'s mean
-/// diagonal; nothing for others.
-fn inverse_if_firm(m: &Block, measure: &Block) -> Option<Block> {
-    let least = (measure[0][0] + measure[1][1] + measure[2][2]) / 300.0;
-    let [a, b, c] = [m[0][0], m[0][1], m[0][2]];
-    let [d, e, f] = [m[1][1], m[1][2], m[2][2]];
-    if !(a > least) {
-        return None;
+/// Least share of a pivot of the matrix's own block that the factor may leave of it.
+const FIRM: f32 = 0.02;
+
+/// `L D Lᵀ` of a symmetric block, L = [1; b 1; c e 1].
+#[derive(Clone, Copy)]
+struct Decomposed {
+    pivots: [f32; 3],
+    b: f32,
+    c: f32,
+    e: f32,
+}
+
+/// The decomposition of a positive block; nothing for others.
+fn decompose(m: &Block) -> Option<Decomposed> {
+    let first = m[0][0];
+    let (b, c) = (m[0][1] / first, m[0][2] / first);
+    let second = m[1][1] - b * m[0][1];
+    let rest = m[1][2] - b * m[0][2];
+    let e = rest / second;
+    let third = m[2][2] - c * m[0][2] - e * rest;
+    let pivots = [first, second, third];
+    pivots.iter().all(|p| *p > 0.0 && p.is_finite()).then_some(Decomposed { pivots, b, c, e })
+}
+
+impl Decomposed {
+    fn inverse(self) -> Block {
+        let (m10, m21, m20) = (-self.b, -self.e, self.b * self.e - self.c);
+        let [p, q, r] = self.pivots.map(|p| 1.0 / p);
+        let i00 = p + m10 * m10 * q + m20 * m20 * r;
+        let i10 = m10 * q + m20 * m21 * r;
+        let i20 = m20 * r;
+        let i11 = q + m21 * m21 * r;
+        let i21 = m21 * r;
+        [[i00, i10, i20, 0.0], [i10, i11, i21, 0.0], [i20, i21, r, 0.0]]
     }
-    let (lb, lc) = (b / a, c / a);
-    let d1 = d - lb * b;
-    if !(d1 > least) {
-        return None;
-    }
-    let e1 = e - lb * c;
-    let le = e1 / d1;
-    let f1 = f - lc * c - le * e1;
-    if !(f1 > least) {
-        return None;
-    }
-    // Inverse of L D Lᵀ with L = [1; lb 1; lc le 1].
-    let (m10, m21, m20) = (-lb, -le, lb * le - lc);
-    let (ia, id, ir) = (1.0 / a, 1.0 / d1, 1.0 / f1);
-    let i00 = ia + m10 * m10 * id + m20 * m20 * ir;
-    let i10 = m10 * id + m20 * m21 * ir;
-    let i20 = m20 * ir;
-    let i11 = id + m21 * m21 * ir;
-    let i21 = m21 * ir;
-    Some([[i00, i10, i20, 0.0], [i10, i11, i21, 0.0], [i20, i21, ir, 0.0]])
 }
 
 #[cfg(test)]
@@ -201,15 +205,17 @@ mod tests {
     fn a_single_thread_is_solved_exactly() {
         let n = 40u32;
         let mut a = Matrix::new(Pattern::new(n as usize, (1..n).map(|i| [i - 1, i])));
-        for d in &mut a.diagonal {
-            add_scalar(d, 2.1);
-            d[0][1] += 0.3;
-            d[1][0] += 0.3;
+        for d in &mut a.own {
+            add_scalar(d, 0.5);
+            d[0][1] += 0.1;
+            d[1][0] += 0.1;
         }
         for b in &mut a.off {
             add_scalar(b, -1.0);
         }
-        let x: Vec<Lane> = (0..n).map(|i| [i as f32 * 0.1, 1.0, (i % 3) as f32, 0.0]).collect();
+        a.close();
+        let x: Vec<Lane> =
+            (0..n).map(|i| [i as f32 * 0.1, 1.0, (i % 3) as f32, 0.0]).collect();
         let mut r = vec![[0.0; 4]; n as usize];
         a.multiply(&x, &mut r);
         let mut factor = Factor::new(&a);

@@ -19,8 +19,8 @@ pub const MARGIN: f64 = 1.8e-3;
 /// How far a loaded knot may press into that space, m.
 const GIVE: f64 = 1.0e-3;
 
-/// Contact stiffness per area, N/m³: the pressure of a tight waistband, 800 Pa, presses 0.2 mm.
-const STIFFNESS: f64 = 4.0e6;
+/// Contact stiffness per area, N/m³: the pressure of a tight waistband, 800 Pa, presses 0.4 mm.
+const STIFFNESS: f64 = 2.0e6;
 
 /// Elastic play of a sticking contact, m.
 const PLAY: f64 = 1.0e-4;
@@ -167,13 +167,14 @@ impl Contact {
         (0.8 * free).max(near)
     }
 
-    /// Contact and friction of a step of `dt` from places x at speeds v, of which `ahead` is the
-    /// movement expected. `grip` scales friction.
+    /// Contact and friction of a step from places x, of which `ahead` is the movement expected
+    /// and `slide` the movement by which friction is judged. `grip` scales friction.
     pub fn push(
         &mut self,
         cloth: &Cloth,
         x: &[Vector3<f64>],
         ahead: &[Vector3<f64>],
+        slide: &[Vector3<f64>],
         grip: f64,
     ) -> Vec<Option<Push>> {
         if !self.any {
@@ -183,12 +184,30 @@ impl Contact {
             .par_iter_mut()
             .zip(x)
             .zip(ahead)
+            .zip(slide)
             .enumerate()
             .with_min_len(ROWS)
-            .map(|(i, ((touch, x), ahead))| {
-                touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, grip)
+            .map(|(i, (((touch, x), ahead), slide))| {
+                touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, slide, grip)
             })
             .collect()
+    }
+
+    /// Bends an expected movement so that knots in contact come to lie on the skin, and takes
+    /// from a second one what they will not do.
+    pub fn guide(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        dx: &mut [Vector3<f64>],
+        fall: &mut [Vector3<f64>],
+    ) {
+        for (i, touch) in self.touches.iter().enumerate().filter(|(_, t)| t.active > 0.0) {
+            let n = touch.normal;
+            let gap = touch.distance + (x[i] + dx[i] - touch.at).dot(&n) - Self::seat(cloth, i);
+            dx[i] -= n * (gap + touch.load / touch.active);
+            fall[i] = Vector3::zeros();
+        }
     }
 
     /// Whether a movement would press a knot that had no contact into the skin.
@@ -244,6 +263,7 @@ impl Touch {
         area: f64,
         x: &Vector3<f64>,
         ahead: &Vector3<f64>,
+        slide: &Vector3<f64>,
         grip: f64,
     ) -> Option<Push> {
         self.active = 0.0;
@@ -270,7 +290,7 @@ impl Touch {
         if limit > 0.0 {
             let across = |d: Vector3<f64>| d - n * d.dot(&n);
             let slip = across(x - anchor);
-            let expected = (slip + across(*ahead)).norm().max(PLAY);
+            let expected = (slip + across(*slide)).norm().max(PLAY);
             let k = limit / expected;
             force -= slip * k;
             stiffness += (Matrix3::identity() - along) * k;

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 /// A thread under compression has negative lateral stiffness, which an implicit step may not
 /// take; with none at all a fold swings freely for the length of the step and overshoots.
 /// It stands in the matrix only, the force is exact.
-pub const SLACK: f64 = 0.02;
+pub const SLACK: f64 = 0.001;
 
 /// A stretch of thread between two knots.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,9 @@ impl Spring {
         let stretch = (length * length - self.rest * self.rest) / (length + self.rest);
         let lateral = (stretch / length).max(SLACK);
         let along = n * n.transpose() * (1.0 - lateral);
-        (n * (self.stiffness * stretch), (along + Matrix3::identity() * lateral) * self.stiffness)
+        (
+            n * (self.stiffness * stretch),
+            (along + Matrix3::identity() * lateral) * self.stiffness,
+        )
     }
 }

@@ -5,8 +5,8 @@ use super::skin::Skin;
 use super::step::{Manner, Workshop};
 use super::swatch::{Ball, Nothing, Slope, fabric, irregular, rectangles};
 use super::weld::Weld;
-use crate::garment::seam::PinTarget;
 use crate::mesh::compiled::{Compiled, MeshPin};
+use crate::garment::seam::PinTarget;
 use nalgebra::Vector3;
 
 fn shop<'a>(compiled: &Compiled, skin: &'a dyn Skin, x: &[Vector3<f64>]) -> Workshop<'a> {
@@ -19,6 +19,7 @@ fn flat(compiled: &Compiled, place: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Vector
 }
 
 fn rest(shop: &mut Workshop<'_>, dt: f64, calm: f64, speed: f64, most: usize) -> usize {
+    let mut still = 0;
     for step in 0..most {
         let manner = Manner {
             dt,
@@ -28,7 +29,12 @@ fn rest(shop: &mut Workshop<'_>, dt: f64, calm: f64, speed: f64, most: usize) ->
             ..Manner::default()
         };
         let taken = shop.step(&manner).expect("finite");
-        if taken.speed < speed {
+        if step % 300 == 299 {
+            println!("{step} {:?}", taken);
+        }
+        // A swing is slow where it turns round, but not for long.
+        still = if taken.speed < speed { still + 1 } else { 0 };
+        if still == 10 {
             return step;
         }
     }
@@ -60,7 +66,7 @@ fn a_hanging_strip_stretches_by_its_weight() {
     let top: Vec<u32> = (0..=n).map(|i| (m * (n + 1) + i) as u32).collect();
     compiled.pins.push(MeshPin { points: top, to: PinTarget::Here });
     let mut shop = shop(&compiled, &Nothing, &flat(&compiled, |u, v| [u, v, 0.0]));
-    rest(&mut shop, 0.05, 2.0, 1e-5, 2000);
+    rest(&mut shop, 0.05, 2.0, 2e-4, 2000);
     let length = m as f64 * h;
     let expected = 0.15 * 9.80665 * length * length / (2.0 * 100.0);
     for i in 0..=n {
@@ -69,32 +75,33 @@ fn a_hanging_strip_stretches_by_its_weight() {
     }
 }
 
-/// The heavy cantilever, clamped by two columns: H / W of the tip against the elastica
-/// (Γ = 10: 1.06680, Γ = 50: 3.70556; w g L³ / B). The clamped row's curvature counts twice (half a
-/// cell, half an arm), which a free mesh does not know: its error is then of first order,
-/// about h / L at Γ = 10.
+/// The heavy cantilever: H / W of the tip, w g L³ / B = Γ. A mesh is clamped in the middle of the
+/// last cell that is held by both ends: the turn at the last held knot stands for the curvature
+/// of half a cell on either side of it.
 fn cantilever(gamma: f64, cells: usize, triangles: bool) -> f64 {
     let length = 0.2;
-    let h = length / cells as f64;
+    let h = length / (cells as f64 + 0.5);
     let bending = 0.15 * 9.80665 * length.powi(3) / gamma;
     let mut cloth = fabric(bending);
     cloth.poisson = 0.0;
     cloth.tensile = [5000.0; 2];
     let wide = 4;
-    let clamp = 3;
+    let clamp = 2;
     let counts = [cells + clamp, wide];
     let mut compiled = rectangles(1, counts, h, cloth);
     if triangles {
         compiled = irregular(compiled, counts, h);
     }
     let columns = counts[0] + 1;
-    let held: Vec<u32> =
-        (0..compiled.particles.len() as u32).filter(|p| (*p as usize % columns) <= clamp).collect();
+    let held: Vec<u32> = (0..compiled.particles.len() as u32)
+        .filter(|p| (*p as usize % columns) <= clamp)
+        .collect();
     compiled.pins.push(MeshPin { points: held, to: PinTarget::Here });
     let mut shop = shop(&compiled, &Nothing, &flat(&compiled, |u, v| [u, 0.0, v]));
-    rest(&mut shop, 0.02, 5.0, 1e-4, 6000);
+    let steps = rest(&mut shop, 0.05, 2.0, 2e-4, 3000);
     let tip = shop.x[(wide / 2) * columns + columns - 1];
-    -tip.y / (tip.x - clamp as f64 * h)
+    println!("steps {steps}");
+    -tip.y / (tip.x - (clamp as f64 - 0.5) * h)
 }
 
 #[test]
@@ -136,7 +143,7 @@ fn friction_holds_and_lets_go_on_a_slope() {
         if slides {
             assert!((way / free - 1.0).abs() < 0.05, "{way} {free}");
         } else {
-            assert!(way < 1e-3, "{way}");
+            assert!(way < 3e-3, "{way}");
         }
     }
 }
@@ -156,11 +163,7 @@ fn handkerchief(cells: usize, seconds: f64) -> (Vec<Vector3<f64>>, Compiled) {
         steps += 1;
         its += taken.iterations;
         if steps % 40 == 0 {
-            println!(
-                "t {time:.3} speed {:.3} low {:.3}",
-                taken.speed,
-                shop.x.iter().map(|x| x.y).fold(9.0, f64::min)
-            );
+            println!("t {time:.3} speed {:.3} low {:.3}", taken.speed, shop.x.iter().map(|x| x.y).fold(9.0, f64::min));
         }
     }
     let stats = super::stats::measure(&compiled, &shop.positions(), &ball);

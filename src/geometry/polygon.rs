@@ -76,7 +76,10 @@ pub fn meeting(
         let ac = from_to(a, c);
         let s = (ac[0] * cd[1] - ac[1] * cd[0]) / cross;
         let t = (ac[0] * ab[1] - ac[1] * ab[0]) / cross;
-        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+        let met = (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t);
+        // Of stretches along one line rounding alone decides where they would cross.
+        let gap = distance(between(a, b, s), between(c, d, t));
+        if met && gap <= tolerance.max(1e-9 * distance(a, b).max(distance(c, d))) {
             return Some((s, t));
         }
     }
@@ -140,6 +143,10 @@ mod tests {
         let apart = (([0.0, 0.0], [1.0, 0.0]), ([0.0, 0.1], [1.0, 0.1]));
         assert_eq!(meeting(apart.0, apart.1, 0.09), None);
         assert_eq!(meeting(apart.0, apart.1, 0.11), Some((0.0, 0.0)));
+        // Two stretches of one slanting line, which do not reach each other.
+        let slanting = |from: f64, to: f64| ([from * 0.56, from * 0.83], [to * 0.56, to * 0.83]);
+        assert_eq!(meeting(slanting(0.1, 0.2), slanting(0.3, 0.4), 1e-9), None);
+        assert_eq!(meeting(slanting(0.3, 0.7), slanting(0.9, 1.1), 1e-9), None);
         // Two stretches of one line, the second reaching into the first.
         let lying = meeting(([0.0, 0.0], [1.0, 0.0]), ([0.5, 0.0], [2.0, 0.0]), 1e-12);
         assert_eq!(lying, Some((0.5, 0.0)));
