@@ -301,9 +301,7 @@ fn the_matrix_can_be_read_off_the_picture() {
     ];
     let fabrics: Vec<Fabric> = weaves
         .iter()
-        .map(|weave| {
-            woven(&weave.name, weave.clone(), (cotton(BLUE), 24.0), (cotton(WHITE), 20.0))
-        })
+        .map(|weave| woven(&weave.name, weave.clone(), (cotton(BLUE), 24.0), (cotton(WHITE), 20.0)))
         .collect();
     let compiled = drawn(fabrics, None);
     for weave in &weaves {

@@ -111,13 +111,11 @@ pub(super) fn dress(
                 }
             }
             rungs.push(compiled.clone());
-            let mut draped =
-                crate::drape::drape(&rungs, &Default::default(), &mut Bar::new()).map_err(
-                    |diagnostics| {
-                        project.tell(&diagnostics);
-                        Stop::Input
-                    },
-                )?;
+            let mut draped = crate::drape::drape(&rungs, &Default::default(), &mut Bar::new())
+                .map_err(|diagnostics| {
+                    project.tell(&diagnostics);
+                    Stop::Input
+                })?;
             draped.stats.seconds.insert("compile".to_owned(), compile_seconds);
             if let Some(cache) = &cache {
                 cache.keep(&draped);
@@ -139,9 +137,7 @@ pub(super) fn verdict(draped: &Draped) -> Result<(), Stop> {
     match (&draped.stats.reason, draped.stats.verdict) {
         (Some(reason), _) => Err(Stop::Drape(reason.clone())),
         (None, Verdict::FellOff) => Err(Stop::Drape("the garment fell off".to_owned())),
-        (None, Verdict::Penetrating) => {
-            Err(Stop::Drape("cloth is left inside a body".to_owned()))
-        }
+        (None, Verdict::Penetrating) => Err(Stop::Drape("cloth is left inside a body".to_owned())),
         (None, Verdict::Settled | Verdict::StillMoving) => Ok(()),
     }
 }

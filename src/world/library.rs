@@ -34,6 +34,10 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("stdlib");
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            // The text that `darzi new` writes is no module.
+            if path.file_stem().is_some_and(|stem| stem == "starter") {
+                continue;
+            }
             let name = format!("std::{}", path.file_stem().unwrap().to_str().unwrap());
             let carried = text(&name).unwrap_or_else(|| panic!("add {name} to FILES"));
             assert_eq!(carried, std::fs::read_to_string(&path).unwrap());
