@@ -1,0 +1,4 @@
+//! Panels and seams as they are compiled.
+
+mod outlines;
+mod sewing;
