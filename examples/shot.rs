@@ -1,3 +1,4 @@
+//! scratch
 #[path = "../tests/render/studio.rs"]
 mod studio;
 use darzi::garment::scene::*;
