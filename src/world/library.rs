@@ -34,8 +34,10 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("stdlib");
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            // The text that `darzi new` writes is no module.
-            if path.file_stem().is_some_and(|stem| stem == "starter") {
+            // The starter is what `darzi new` writes, no module.
+            if path.extension().is_none_or(|end| end != "garment")
+                || path.ends_with("starter.garment")
+            {
                 continue;
             }
             let name = format!("std::{}", path.file_stem().unwrap().to_str().unwrap());
