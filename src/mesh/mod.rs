@@ -3,13 +3,14 @@
 //!
 //! The order of work: cut lines are measured ([`outline`]); places where a particle must lie are
 //! collected ([`breakpoint`]) and carried through the seams ([`matching`]); every stretch between
-//! them gets its count of steps ([`spacing`]); then each panel is cut by itself ([`panel`]):
+//! them gets its count of steps ([`spacing`], [`grading`]); then each panel is cut by itself ([`panel`]):
 //! its grid ([`lattice`]), the band along its edges ([`band`], [`triangulation`], [`improve`]).
 
 pub mod assemble;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
+pub mod grading;
 pub mod improve;
 pub mod json;
 pub mod lattice;

@@ -27,7 +27,7 @@ impl NarrowCorners {
                     // At distance x from the tip the cloth is 2x sin(angle/2) wide; from about
                     // half the spacing of points on, triangles with 20° fit.
                     let spacing = distance(a, b).max(distance(b, c));
-                    let reach = 0.25 / libm::sin(angle.max(0.01) / 2.0) + 1.5;
+                    let reach = 0.25 / libm::sin(angle.max(1e-3) / 2.0) + 1.5;
                     corners.push((b, reach * spacing));
                 }
             }
