@@ -41,7 +41,7 @@ pub const DEFAULT_CELL: f64 = 8e-3;
 /// No cell is smaller, m.
 const FINEST_CELL: f64 = 1e-5;
 /// How often steps may be shortened until every panel comes out well.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 4;
 
 /// How to compile.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -35,6 +35,11 @@ impl NarrowCorners {
         NarrowCorners { corners }
     }
 
+    /// Whether a place lies where a narrow corner is narrower than its points are apart.
+    pub fn reach(&self, place: Place) -> bool {
+        self.corners.iter().any(|&(tip, reach)| distance(place, tip) <= reach)
+    }
+
     /// Whether a triangle is sharper than 20° without a narrow corner near by.
     pub fn blames(&self, triangle: [Place; 3]) -> bool {
         let [a, b, c] = triangle;
