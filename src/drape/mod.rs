@@ -2,16 +2,20 @@
 
 pub mod air;
 pub mod bending;
+pub mod boxes;
 pub mod cloth;
 pub mod conjugate;
+pub mod crossing;
 pub mod draped;
 pub mod elastic;
 pub mod hold;
 pub mod ladder;
+pub mod layers;
 pub mod matrix;
 pub mod membrane;
 pub mod place;
 pub mod precondition;
+pub mod proximity;
 pub mod schedule;
 pub mod sewing;
 pub mod shear;
@@ -99,7 +103,8 @@ pub fn dress(
     progress: &mut dyn Progress,
 ) -> (Vec<Vector3<f64>>, Stats) {
     let Some(finest) = rungs.last() else { return (Vec::new(), Stats::default()) };
-    let prefix = finest.schedule.iter().take_while(|p| !matches!(p, Phase::Run { .. })).count();
+    let prefix =
+        finest.schedule.iter().take_while(|p| !matches!(p, Phase::Run { .. })).count();
     // What runs by the clock begins where the text puts it; only rest is sought coarse to fine.
     let rungs = if prefix == 0 { &rungs[rungs.len() - 1..] } else { rungs };
     let mut seconds = std::collections::BTreeMap::new();

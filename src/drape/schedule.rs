@@ -52,7 +52,7 @@ pub fn sew(
             since = 0;
         } else {
             since += 1;
-            if since >= 20 {
+            if since >= 8 {
                 strength = (strength * 1.6).min(200.0);
                 since = 0;
             }
@@ -65,6 +65,7 @@ pub fn sew(
             grip: 0.05,
             sewing: strength,
             near: 0.008,
+            layers: false,
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
         add(&mut course, taken);
@@ -93,8 +94,7 @@ pub fn settle(
     while course.time < within && course.steps < most {
         let slow = (moved / speed.max(1e-5)).max(1.0);
         let dt = if course.time < free || slow > 200.0 { 1.0 / 60.0 } else { 1.0 / 30.0 };
-        let calm =
-            if course.time < free { 0.5 } else { (0.5 + 3.0 * (course.time - free)).min(6.0) };
+        let calm = if course.time < free { 0.5 } else { (0.5 + 3.0 * (course.time - free)).min(6.0) };
         let taken = shop.step(&Manner {
             dt,
             air,

@@ -7,7 +7,7 @@ use super::value::Value;
 use super::words::{Form, Kind};
 use super::{Evaluator, figure, textile};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::garment::sari::{Part, Sari};
+use crate::garment::sari::Sari;
 use crate::garment::scene::BodyRequest;
 use crate::syntax::tree::{Expr, ExprKind};
 use crate::textile::fabric::Fabric;
@@ -51,8 +51,8 @@ pub enum Made {
     Weave(Rc<Weave>),
     Knit(Rc<Knit>),
     Motif(Rc<Motif>),
-    /// A part of a sari with its width (kath) or length (padar), m.
-    Part(Rc<(Part, Option<f64>)>),
+    /// A part of a sari, before a sari gives it its length.
+    Part(Rc<super::sari::Draft>),
     /// A sari and the item of its fabric.
     Sari(Rc<Sari>, ItemId),
     Sizes(Rc<figure::Sizes>),
@@ -178,6 +178,7 @@ impl<'t> Evaluator<'t> {
             Kind::Sizes => figure::sizes(ev, id).map(|it| Made::Sizes(Rc::new(it))),
             Kind::Body => figure::body(ev, id).map(|it| Made::Body(Rc::new(it))),
             Kind::Wearer => figure::wearer(ev, id).map(|it| Made::Wearer(Rc::new(it))),
+            Kind::Cloth => ev.cloth(id).map(|it| Made::Panel(Rc::new(it))),
             Kind::Panel => ev.draft(id).map(|it| Made::Panel(Rc::new(it))),
             _ => None,
         });

@@ -7,6 +7,7 @@
 //! its grid ([`lattice`]), the band along its edges ([`band`], [`triangulation`], [`improve`]).
 
 pub mod assemble;
+pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
@@ -82,7 +83,11 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     }
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
-    Ok(assemble::assemble(garment, &plan, &spacing, &cells, cloths))
+    let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
+    if options.coarsen <= 1.0 {
+        atlas::draw(garment, &mut compiled);
+    }
+    Ok(compiled)
 }
 
 /// Chooses the steps and cuts all panels, with shorter steps where the cloth asks for them.

@@ -39,7 +39,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
         words: &[
             property("count", "COUNT", "its fineness, such as `30Ne`, `20tex`, `150denier`"),
             property("plies", "NUMBER", "strands twisted together =1"),
-            property("twist", "TWIST [ S | Z ]", "turns per length and direction =0turns/m Z"),
+            property("twist", "TWIST [ S|Z ]", "turns per length and direction =0turns/m Z"),
             property(
                 "fibre",
                 "cotton|silk|wool|linen|jute|viscose|polyester|nylon|metal",
