@@ -8,7 +8,18 @@ use serde::{Deserialize, Serialize};
 
 pub mod codes;
 pub mod json;
+pub mod place;
 pub mod render;
+pub mod spelling;
+
+/// The texts that diagnostics speak of.
+pub trait Texts {
+    /// The path under which `file` was opened, as messages show it.
+    fn path(&self, file: FileId) -> &str;
+
+    /// The text of `file`; empty for a number that was never given out.
+    fn text(&self, file: FileId) -> &str;
+}
 
 /// A file known to a [`crate::world::World`], by its number in the order of first use.
 #[derive(

@@ -1,3 +1,209 @@
 //! Cloth and bodies to a drape: sewing, contact, gravity, rest.
 
+pub mod air;
+pub mod bending;
+pub mod boxes;
+pub mod cloth;
+pub mod conjugate;
+pub mod crossing;
 pub mod draped;
+pub mod elastic;
+pub mod hold;
+pub mod ladder;
+pub mod layers;
+pub mod matrix;
+pub mod membrane;
+pub mod place;
+pub mod precondition;
+pub mod proximity;
+pub mod schedule;
+pub mod sewing;
+pub mod shear;
+pub mod skin;
+pub mod stats;
+pub mod step;
+pub mod tension;
+pub mod weld;
+
+#[cfg(test)]
+mod swatch;
+#[cfg(test)]
+mod trials;
+
+use crate::body;
+use crate::body::surface::Surface;
+use crate::diagnostic::Diagnostic;
+use crate::garment::scene::Phase;
+use crate::mesh::compiled::Compiled;
+use crate::progress::Progress;
+use draped::{Draped, Stats, Verdict};
+use nalgebra::{Point3, Vector3};
+use schedule::Course;
+use skin::{Figures, Skin};
+use std::time::Instant;
+use step::{Stuck, Workshop};
+use weld::Weld;
+
+/// What can be asked of a drape besides what the garment's own schedule says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Density of the air, kg/m³; none at 0.
+    pub air: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { air: 1.2 }
+    }
+}
+
+/// Sews the garment, dresses the body, lets it come to rest.
+///
+/// `rungs` is one garment compiled on ever finer grids; the last is the one asked for. The seams
+/// are closed and the cloth first settled on the coarsest.
+///
+/// # Errors
+/// What is wrong with the bodies asked for; E0805 if there is no mesh at all.
+pub fn drape(
+    rungs: &[Compiled],
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> Result<Draped, Vec<Diagnostic>> {
+    let Some(finest) = rungs.last() else {
+        return Err(vec![Diagnostic::new("E0805", "there is no cloth to drape")]);
+    };
+    let mut surfaces = Vec::new();
+    let mut wrong = Vec::new();
+    for request in &finest.bodies {
+        match body::mannequin(request) {
+            Ok(surface) => surfaces.push(surface),
+            Err(diagnostics) => wrong.extend(diagnostics),
+        }
+    }
+    if wrong.iter().any(Diagnostic::is_error) {
+        return Err(wrong);
+    }
+    let bodies = surfaces.len();
+    surfaces.extend(finest.solids.iter().map(body::solid));
+    let skin = Figures::new(&surfaces);
+    let place = |compiled: &Compiled| -> Vec<Vector3<f64>> {
+        place::place(compiled, &surfaces[..bodies]).iter().map(|p| p.coords).collect()
+    };
+    let (positions, stats) = dress(rungs, &surfaces, &skin, &place, options, progress);
+    Ok(Draped { positions: positions.into_iter().map(Point3::from).collect(), surfaces, stats })
+}
+
+/// Sews and drapes over given skin, from given first places.
+pub fn dress(
+    rungs: &[Compiled],
+    surfaces: &[Surface],
+    skin: &dyn Skin,
+    place: &dyn Fn(&Compiled) -> Vec<Vector3<f64>>,
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> (Vec<Vector3<f64>>, Stats) {
+    let Some(finest) = rungs.last() else { return (Vec::new(), Stats::default()) };
+    let prefix =
+        finest.schedule.iter().take_while(|p| !matches!(p, Phase::Run { .. })).count();
+    // What runs by the clock begins where the text puts it; only rest is sought coarse to fine.
+    let rungs = if prefix == 0 { &rungs[rungs.len() - 1..] } else { rungs };
+    let mut seconds = std::collections::BTreeMap::new();
+    let mut steps = 0;
+    let mut reason: Option<String> = None;
+    let mut last = Course { reached: true, ..Course::default() };
+    let mut carried: Option<(Vec<Vector3<f64>>, bool)> = None;
+    let mut result = Vec::new();
+    let mut asked_rest = false;
+    for (rung, compiled) in rungs.iter().enumerate() {
+        let fine = rung + 1 == rungs.len();
+        let (start, sewn) = match carried.take() {
+            Some((places, sewn)) => (places, sewn),
+            None => (place(compiled), false),
+        };
+        let seams = || compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
+        let weld = Weld::new(compiled.particles.len(), seams().filter(|_| sewn));
+        let mut shop = Workshop::new(compiled, surfaces, skin, weld, &start);
+        let mut sewn = sewn;
+        let phases = if fine { &finest.schedule[..] } else { &finest.schedule[..prefix] };
+        for phase in phases {
+            let clock = Instant::now();
+            let (name, course) = match *phase {
+                Phase::Sew { gap, .. } => {
+                    if sewn || shop.sewing.pairs.is_empty() {
+                        continue;
+                    }
+                    progress.stage("sew");
+                    let course = schedule::sew(&mut shop, gap.max(1e-5), progress);
+                    if course.is_ok_and(|c| !c.reached) {
+                        let (gap, seam) = shop.sewing.gap(&shop.x);
+                        let name = compiled.seams.get(seam).map_or("", |s| s.name.as_str());
+                        reason.get_or_insert(format!(
+                            "the seam `{name}` did not close: {:.1} mm are left",
+                            gap * 1e3
+                        ));
+                    }
+                    let places = shop.positions();
+                    let weld = Weld::new(compiled.particles.len(), seams());
+                    shop = Workshop::new(compiled, surfaces, skin, weld, &places);
+                    sewn = true;
+                    ("sew", course)
+                }
+                Phase::Settle { speed, within, .. } => {
+                    progress.stage("settle");
+                    let (speed, within) = if fine {
+                        asked_rest = true;
+                        (speed, within)
+                    } else {
+                        (speed * 5.0, within.min(6.0))
+                    };
+                    let course = schedule::settle(&mut shop, speed, within, options.air, progress);
+                    if let (true, Ok(course)) = (fine, course)
+                        && !course.reached
+                    {
+                        reason.get_or_insert(format!(
+                            "not at rest after {within} s: {:.1} mm/s are left",
+                            course.speed * 1e3
+                        ));
+                    }
+                    ("settle", course)
+                }
+                Phase::Run { time, rate, .. } => {
+                    progress.stage("run");
+                    asked_rest = false;
+                    ("run", schedule::run(&mut shop, time, rate, options.air, progress))
+                }
+            };
+            *seconds.entry(name.to_owned()).or_insert(0.0) += clock.elapsed().as_secs_f64();
+            match course {
+                Ok(course) => {
+                    steps += course.steps;
+                    last = course;
+                }
+                Err(Stuck) => {
+                    reason.get_or_insert("the cloth could not be moved any further".to_owned());
+                    last.reached = false;
+                }
+            }
+        }
+        let places = shop.positions();
+        if let Some(next) = rungs.get(rung + 1) {
+            carried = Some((ladder::carry(compiled, &places, next), sewn));
+        } else {
+            result = places;
+        }
+    }
+    let mut stats = stats::measure(finest, &result, skin);
+    stats.seconds = seconds;
+    stats.steps = steps;
+    stats.largest_speed = last.speed;
+    let at_rest = asked_rest && last.reached;
+    stats.verdict = if stats.deepest_penetration > 1e-3 {
+        Verdict::Penetrating
+    } else if at_rest {
+        Verdict::Settled
+    } else {
+        Verdict::StillMoving
+    };
+    stats.reason = reason;
+    (result, stats)
+}

@@ -1,1 +1,214 @@
-//! Syntax to garment: names, modules, units, parameters, and the words of the language.
+//! Names, units, parameters: the tree of a text becomes garments.
+//!
+//! [`evaluate`] reads a file with all it uses and works out every garment, scene and sari in it.
+//! Values are worked out when they are first needed, so declarations may stand in any order; a
+//! value that is wrong is told once and poisons silently whatever is made of it, so that one run
+//! tells all mistakes. Everything is bounded: no recursion, loops over finite ranges, a limit of
+//! steps for the whole text.
+
+mod block;
+mod declaration;
+mod drape;
+mod expression;
+pub mod fields;
+pub mod figure;
+mod function;
+mod garment;
+pub mod item;
+mod module;
+mod operator;
+pub mod panel;
+mod place;
+mod read;
+pub mod sari;
+mod scene;
+pub mod scope;
+mod seam;
+pub mod textile;
+pub mod value;
+pub mod words;
+
+use crate::diagnostic::{Diagnostic, FileId, Span};
+use crate::garment::Garment;
+use crate::syntax::tree::{Expr, Name};
+use crate::units::Quantity;
+use crate::world::World;
+use item::{Item, ItemId};
+use module::{Asked, Loaded};
+use scope::{Binding, BindingId, Scope, ScopeId, Waiting};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What is asked for besides the text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Parameters set from outside, `("ease", "3cm")`.
+    pub set: Vec<(String, String)>,
+    /// Names of the garments and scenes that are wanted; empty for all.
+    pub names: Vec<String>,
+}
+
+/// Steps of evaluation one text may take; an ordinary garment takes some ten thousand.
+const STEPS: u64 = 20_000_000;
+
+/// How deep values may hang on each other.
+const DEPTH: usize = 3_000;
+
+/// Stack for that depth, in bytes.
+const STACK: usize = 512 << 20;
+
+/// Works out all garments and scenes of a file. Where a diagnostic is an error, the garment it
+/// belongs to is left out.
+pub fn evaluate(
+    world: &mut dyn World,
+    root: FileId,
+    options: &Options,
+) -> (Vec<Garment>, Vec<Diagnostic>) {
+    let (files, asked, mut told) = module::load(world, root, &options.set);
+    // Values nest as deep as the text makes them; the work gets a stack that holds the limit.
+    let worked = std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .stack_size(STACK)
+            .spawn_scoped(scope, || {
+                let mut evaluator = Evaluator::new(&files, &asked, root);
+                let garments = evaluator.file(&options.names);
+                (garments, evaluator.told)
+            })
+            .map(std::thread::ScopedJoinHandle::join)
+    });
+    match worked {
+        Ok(Ok((garments, more))) => {
+            told.extend(more);
+            (garments, told)
+        }
+        Ok(Err(panic)) => std::panic::resume_unwind(panic),
+        Err(error) => {
+            told.push(
+                Diagnostic::new("E0911", format!("there is no room to work: {error}"))
+                    .at(Span::new(root, 0, 0), ""),
+            );
+            (Vec::new(), told)
+        }
+    }
+}
+
+/// Everything known while a file is worked out.
+pub struct Evaluator<'t> {
+    files: &'t [Loaded],
+    options: &'t [Asked],
+    root: FileId,
+    scopes: Vec<Scope>,
+    bindings: Vec<Binding<'t>>,
+    items: Vec<Item<'t>>,
+    instances: Vec<panel::Instance<'t>>,
+    /// Blocks of cloths, read once.
+    cloths: BTreeMap<ItemId, fields::Fields<'t>>,
+    /// Values of fitted names, by the scope of the panel they belong to.
+    fits: BTreeMap<ScopeId, BTreeMap<String, Quantity>>,
+    /// Parameters set by copies, by the scope of the copy.
+    settings: BTreeMap<ScopeId, Vec<(&'t Name, &'t Expr)>>,
+    /// Scopes of the library's modules, by their paths.
+    libraries: BTreeMap<String, ScopeId>,
+    parameters: Vec<BindingId>,
+    asked_for: BTreeSet<String>,
+    /// Names of halves by panel, from the places of the garment being worked out.
+    sides: BTreeMap<ItemId, panel::Standing>,
+    waiting: Vec<(Waiting, Span)>,
+    /// Bodies of the functions being called.
+    calling: Vec<&'t Expr>,
+    told: Vec<Diagnostic>,
+    depth: usize,
+    steps: u64,
+    turns: usize,
+    exhausted: bool,
+}
+
+impl<'t> Evaluator<'t> {
+    fn new(files: &'t [Loaded], options: &'t [Asked], root: FileId) -> Self {
+        Evaluator {
+            files,
+            options,
+            root,
+            scopes: Vec::new(),
+            bindings: Vec::new(),
+            items: Vec::new(),
+            instances: Vec::new(),
+            cloths: BTreeMap::new(),
+            fits: BTreeMap::new(),
+            settings: BTreeMap::new(),
+            libraries: BTreeMap::new(),
+            parameters: Vec::new(),
+            asked_for: BTreeSet::new(),
+            sides: BTreeMap::new(),
+            waiting: Vec::new(),
+            calling: Vec::new(),
+            told: Vec::new(),
+            depth: 0,
+            steps: 0,
+            turns: 0,
+            exhausted: false,
+        }
+    }
+
+    /// Says something about the text, once.
+    pub fn tell(&mut self, diagnostic: Diagnostic) {
+        if !self.told.contains(&diagnostic) {
+            self.told.push(diagnostic);
+        }
+    }
+
+    /// The text of a place.
+    pub fn snippet(&self, span: Span) -> &'t str {
+        self.files
+            .iter()
+            .find(|file| file.id == span.file)
+            .and_then(|file| file.text.get(span.start as usize..span.end as usize))
+            .unwrap_or("")
+    }
+
+    /// Counts steps; false once the text has taken more than it may, which is told once.
+    fn step(&mut self, steps: u64, at: Span) -> bool {
+        self.steps = self.steps.saturating_add(steps);
+        if self.steps <= STEPS {
+            return true;
+        }
+        if !self.exhausted {
+            self.exhausted = true;
+            self.tell(
+                Diagnostic::new("E0210", "this text takes too long to work out")
+                    .at(at, "stopped here")
+                    .help("call fewer functions from functions, or go through shorter ranges"),
+            );
+        }
+        false
+    }
+
+    /// Works something out one level deeper; too deep is told.
+    fn deeper(&mut self, at: Span, work: impl FnOnce(&mut Self) -> value::Value) -> value::Value {
+        self.nested(1, at, work).unwrap_or(value::Value::Poison)
+    }
+
+    /// Works an item out; it takes more stack than a value.
+    fn deeper_item<T>(&mut self, at: Span, work: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        self.nested(10, at, work).flatten()
+    }
+
+    fn nested<T>(
+        &mut self,
+        levels: usize,
+        at: Span,
+        work: impl FnOnce(&mut Self) -> T,
+    ) -> Option<T> {
+        if self.depth + levels > DEPTH {
+            self.tell(
+                Diagnostic::new("E0211", "these values hang on each other too deep")
+                    .at(at, "here")
+                    .help("shorten the chain of names"),
+            );
+            return None;
+        }
+        self.depth += levels;
+        let result = work(self);
+        self.depth -= levels;
+        Some(result)
+    }
+}

@@ -1,1 +1,71 @@
 //! Drape to pictures: camera, light, ray tracing, the look of textiles.
+//!
+//! [`render`] sets the figure on a turntable in a studio, traces paths of light over a hierarchy
+//! of triangles and gives back one sheet with all the views asked for. The same values give the
+//! same bytes, on one thread or many: every pixel draws its own numbers from its place.
+
+mod backdrop;
+mod camera;
+mod figure;
+mod finish;
+mod floor;
+mod hierarchy;
+mod lamp;
+mod pixel;
+mod sample;
+mod selvage;
+mod sheet;
+mod slub;
+mod smooth;
+mod swatch;
+mod tessellate;
+mod tone;
+mod trace;
+
+use crate::drape::draped::Draped;
+use crate::garment::scene::Picture;
+use crate::mesh::compiled::Compiled;
+use crate::progress::Progress;
+use image::RgbaImage;
+
+/// A vector or point of the pictures, m.
+type Vector = nalgebra::Vector3<f32>;
+
+/// A colour in linear light, Rec. 709 primaries.
+type Light3 = nalgebra::Vector3<f32>;
+
+/// How much care is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Paths a pixel of cloth or body, at least 1.
+    pub paths: u32,
+    /// Times that light goes on from surface to surface after the first.
+    pub bounces: u32,
+    /// Whether the grain that is left is smoothed away along the surfaces.
+    pub smooth: bool,
+}
+
+impl Default for Options {
+    /// A clean picture in seconds.
+    fn default() -> Self {
+        Options { paths: 16, bounces: 2, smooth: true }
+    }
+}
+
+/// The picture asked for: one sheet with all its views, at one scale and on one ground line.
+///
+/// `picture.size` is taken as it stands, at least 1 × 1; no views at all show the front.
+/// Panels whose region of the atlas is missing are shown in the colour of their yarns, places
+/// that are not numbers are left out; nothing here fails.
+pub fn render(
+    compiled: &Compiled,
+    draped: &Draped,
+    picture: &Picture,
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> RgbaImage {
+    progress.stage("render");
+    progress.share(0.0, "building");
+    let figure = figure::Figure::of(compiled, draped);
+    sheet::print(&figure, picture, options, progress)
+}

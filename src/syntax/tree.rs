@@ -183,6 +183,9 @@ pub struct Expr {
 /// The shapes of value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ExprKind {
+    /// What stands here could not be read, and that has been told. Its value is unknown; whatever
+    /// is made of it says nothing more.
+    Unread,
     /// `12cm`, `1 3/8in`, `50%`, `7`
     Number {
         /// The number before its unit.

@@ -1,20 +1,67 @@
 //! Every read of a text goes through a [`World`]: the disk, the library inside the program,
 //! or a table in memory for tests.
 
-use crate::diagnostic::FileId;
+mod disk;
+pub mod library;
+mod memory;
+pub mod path;
+
+pub use disk::Disk;
+pub use memory::Memory;
+
+use crate::diagnostic::{FileId, Texts};
+use std::collections::BTreeMap;
 
 /// Where the texts of `.garment` files come from.
-pub trait World {
+pub trait World: Texts {
     /// The file at `path`: relative to the project (`parts/collar.garment`), or in the library
     /// (`std::fabric`). The same path gives the same number.
     ///
     /// # Errors
     /// A sentence saying why it cannot be read.
     fn open(&mut self, path: &str) -> Result<FileId, String>;
+}
 
-    /// The path that was opened as `file`, for messages.
-    fn path(&self, file: FileId) -> &str;
+/// The files opened so far.
+#[derive(Clone, Debug, Default)]
+struct Opened {
+    files: Vec<(String, String)>,
+    numbers: BTreeMap<String, FileId>,
+}
 
-    /// The text of `file`.
-    fn text(&self, file: FileId) -> &str;
+impl Opened {
+    /// The number of `path`, reading it with `read` the first time.
+    fn open(
+        &mut self,
+        path: &str,
+        read: impl FnOnce(&str) -> Result<String, String>,
+    ) -> Result<FileId, String> {
+        let path = path::normal(path)?;
+        if let Some(&known) = self.numbers.get(&path) {
+            return Ok(known);
+        }
+        let text = match library::text(&path) {
+            Some(text) => text.to_owned(),
+            None if path.starts_with("std::") => {
+                return Err(format!("the library has no `{path}`"));
+            }
+            None => read(&path)?,
+        };
+        let number = u32::try_from(self.files.len()).map_err(|_| "too many files".to_owned())?;
+        self.files.push((path.clone(), text));
+        self.numbers.insert(path, FileId(number));
+        Ok(FileId(number))
+    }
+
+    fn get(&self, file: FileId) -> Option<&(String, String)> {
+        self.files.get(usize::try_from(file.0).ok()?)
+    }
+
+    fn path(&self, file: FileId) -> &str {
+        self.get(file).map_or("", |(path, _)| path)
+    }
+
+    fn text(&self, file: FileId) -> &str {
+        self.get(file).map_or("", |(_, text)| text)
+    }
 }

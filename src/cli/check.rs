@@ -1,0 +1,29 @@
+//! `darzi check`: what is wrong with a file.
+
+use super::project::Project;
+use super::{Input, Stop};
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  darzi check skirt.garment
+  darzi check skirt.garment --set length=70cm
+  darzi check skirt.garment --message-format json")]
+pub(super) struct Check {
+    #[command(flatten)]
+    input: Input,
+}
+
+impl Check {
+    pub(super) fn run(self) -> Result<(), Stop> {
+        let mut project = Project::open(&self.input)?;
+        let garments = project.garments(&self.input)?;
+        for garment in &garments {
+            let compiled = crate::mesh::compile(garment, &crate::mesh::Options::default());
+            if let Err(diagnostics) = compiled {
+                project.tell(&diagnostics);
+                return Err(Stop::Input);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,140 @@
+//! `darzi drape`: the dressed figure as .glb or .obj. Also the way from a garment to its drape
+//! that `render` shares.
+
+use super::bar::Bar;
+use super::cache::Cache;
+use super::project::Project;
+use super::{Input, Stop, Work, output};
+use crate::drape::draped::{Draped, Verdict};
+use crate::garment::Garment;
+use crate::mesh::compiled::Compiled;
+use crate::{export, mesh};
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  darzi drape skirt.garment -o skirt.glb
+  darzi drape skirt.garment -o skirt.obj --with-body --stats skirt.json
+  darzi drape skirt.garment -o skirt.glb --resolution 5mm --threads 1")]
+pub(super) struct Drape {
+    #[command(flatten)]
+    input: Input,
+
+    /// OUT.glb (textured, metres, y up) or OUT.obj (with OUT.mtl and OUT.TEXTILE.png beside it)
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Write the wearer and the solids too
+    #[arg(long)]
+    with_body: bool,
+
+    #[command(flatten)]
+    work: Work,
+}
+
+impl Drape {
+    pub(super) fn run(self) -> Result<(), Stop> {
+        let kind = self.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_owned();
+        if !matches!(kind.as_str(), "glb" | "obj") {
+            return Err(Stop::Call("the output must end in .glb or .obj".to_owned()));
+        }
+        output::expect_folder(&self.output)?;
+        let mut project = Project::open(&self.input)?;
+        let garment = project.garment(&self.input)?;
+        let (compiled, draped) = dress(&project, &garment, &self.work)?;
+        if kind == "glb" {
+            let bytes = export::glb::write(&compiled, &draped, self.with_body);
+            output::write(&self.output, |out| out.write_all(&bytes))?;
+        } else {
+            self.write_obj(&compiled, &draped)?;
+        }
+        verdict(&draped)
+    }
+
+    fn write_obj(&self, compiled: &Compiled, draped: &Draped) -> Result<(), Stop> {
+        let stem = self.output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let files = export::obj::write(compiled, draped, self.with_body, &stem);
+        for (name, picture) in &files.pictures {
+            output::write(&self.output.with_file_name(name), |out| out.write_all(picture))?;
+        }
+        output::write(&self.output.with_extension("mtl"), |out| out.write_all(&files.mtl))?;
+        output::write(&self.output, |out| out.write_all(&files.obj))
+    }
+}
+
+/// Grids that the drape climbs, coarse to fine, as multiples of the finest cell.
+const RUNGS: [f64; 3] = [4.0, 2.0, 1.0];
+
+/// Coarsest cell on which a garment is still recognisable, m.
+const COARSEST: f64 = 0.025;
+
+/// Compiles and drapes `garment`, or takes the drape from the cache; writes `--stats`.
+pub(super) fn dress(
+    project: &Project,
+    garment: &Garment,
+    work: &Work,
+) -> Result<(Compiled, Draped), Stop> {
+    if let Some(path) = &work.stats {
+        output::expect_folder(path)?;
+    }
+    if let Some(threads) = work.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|e| Stop::Call(format!("cannot start {threads} threads: {e}")))?;
+    }
+    let start = Instant::now();
+    let compile = |coarsen: f64| {
+        let options = mesh::Options { cell: work.resolution, coarsen };
+        mesh::compile(garment, &options)
+    };
+    let compiled = compile(1.0).map_err(|diagnostics| {
+        project.tell(&diagnostics);
+        Stop::Input
+    })?;
+    let compile_seconds = start.elapsed().as_secs_f64();
+
+    let cache = if work.no_cache { None } else { Cache::of(&compiled) };
+    let draped = match cache.as_ref().and_then(|c| c.load(&compiled)) {
+        Some(draped) => draped,
+        None => {
+            let largest = compiled.panels.iter().map(|p| p.cell).fold(0.0, f64::max);
+            let mut rungs = Vec::new();
+            for coarsen in RUNGS {
+                if coarsen > 1.0 && coarsen * largest <= COARSEST {
+                    // A coarse grid may be too coarse for a small piece; the finer ones do.
+                    rungs.extend(compile(coarsen).ok());
+                }
+            }
+            rungs.push(compiled.clone());
+            let mut draped = crate::drape::drape(&rungs, &Default::default(), &mut Bar::new())
+                .map_err(|diagnostics| {
+                    project.tell(&diagnostics);
+                    Stop::Input
+                })?;
+            draped.stats.seconds.insert("compile".to_owned(), compile_seconds);
+            if let Some(cache) = &cache {
+                cache.keep(&draped);
+            }
+            draped
+        }
+    };
+    if let Some(path) = &work.stats {
+        output::write(path, |out| {
+            serde_json::to_writer_pretty(&mut *out, &draped.stats)?;
+            out.write_all(b"\n")
+        })?;
+    }
+    Ok((compiled, draped))
+}
+
+/// What the file asked of the drape, and whether it came to pass.
+pub(super) fn verdict(draped: &Draped) -> Result<(), Stop> {
+    match (&draped.stats.reason, draped.stats.verdict) {
+        (Some(reason), _) => Err(Stop::Drape(reason.clone())),
+        (None, Verdict::FellOff) => Err(Stop::Drape("the garment fell off".to_owned())),
+        (None, Verdict::Penetrating) => Err(Stop::Drape("cloth is left inside a body".to_owned())),
+        (None, Verdict::Settled | Verdict::StillMoving) => Ok(()),
+    }
+}

@@ -1,0 +1,106 @@
+//! From a file on disk to the garment a command works on.
+
+use super::{Input, MessageFormat, Stop};
+use crate::diagnostic::{Diagnostic, FileId, Texts, json, render};
+use crate::evaluate;
+use crate::garment::Garment;
+use crate::world::{Disk, World};
+use std::io::IsTerminal;
+use std::path::{Component, Path};
+
+/// A file that has been read, with the way its messages are told.
+pub(super) struct Project {
+    world: Disk,
+    root: FileId,
+    format: MessageFormat,
+}
+
+impl Project {
+    /// Opens the file of `input`.
+    pub(super) fn open(input: &Input) -> Result<Self, Stop> {
+        let path = &input.file;
+        if path.extension().is_none_or(|e| e != "garment") {
+            return Err(Stop::Call(format!(
+                "`{}` is not a .garment file; darzi reads files that end so",
+                path.display()
+            )));
+        }
+        // A file below the current folder is named as the caller named it, and may use files
+        // beside its own folder; any other file has its own folder as its project.
+        let below = path.is_relative()
+            && path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+        let (folder, name) = match (below, path.parent(), path.file_name()) {
+            (false, Some(folder), Some(name)) => (folder, Path::new(name)),
+            _ => (Path::new("."), path.as_path()),
+        };
+        let Some(name) = name.to_str() else {
+            return Err(Stop::Call(format!("`{}` is not written in UTF-8", path.display())));
+        };
+        let mut world = Disk::new(folder);
+        match world.open(name) {
+            Ok(root) => Ok(Project { world, root, format: input.message_format }),
+            Err(why) => {
+                let told =
+                    Diagnostic::new("E0903", format!("cannot read `{}`", path.display())).help(why);
+                tell(&[told], &world, input.message_format);
+                Err(Stop::Input)
+            }
+        }
+    }
+
+    /// Evaluates the file and tells what is wrong with it.
+    ///
+    /// # Errors
+    /// [`Stop::Input`] if anything is.
+    pub(super) fn garments(&mut self, input: &Input) -> Result<Vec<Garment>, Stop> {
+        let options = evaluate::Options {
+            set: input.set.clone(),
+            names: input.name.iter().cloned().collect(),
+        };
+        let (garments, diagnostics) = evaluate::evaluate(&mut self.world, self.root, &options);
+        self.tell(&diagnostics);
+        if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(garments) }
+    }
+
+    /// The one garment that `input` names, or the only one there is.
+    pub(super) fn garment(&mut self, input: &Input) -> Result<Garment, Stop> {
+        let mut garments = self.garments(input)?;
+        let names: Vec<String> = garments.iter().map(|g| g.name.clone()).collect();
+        let found = match &input.name {
+            Some(name) => garments.iter().position(|g| g.name == *name).ok_or_else(|| {
+                Stop::Call(format!("no `{name}` in this file; it has {}", names.join(", ")))
+            })?,
+            None if garments.len() == 1 => 0,
+            None if garments.is_empty() => {
+                self.tell(&[Diagnostic::new("E0209", "this file makes nothing that can be shown")
+                    .help("it needs a `garment`, a `scene` or a `picture` of a sari")]);
+                return Err(Stop::Input);
+            }
+            None => {
+                return Err(Stop::Call(format!(
+                    "this file has {}; say which with --name",
+                    names.join(", ")
+                )));
+            }
+        };
+        Ok(garments.swap_remove(found))
+    }
+
+    /// Tells messages about the file.
+    pub(super) fn tell(&self, diagnostics: &[Diagnostic]) {
+        tell(diagnostics, &self.world, self.format);
+    }
+}
+
+fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
+    if diagnostics.is_empty() {
+        return;
+    }
+    match format {
+        MessageFormat::Json => eprint!("{}", json::lines(diagnostics, texts)),
+        MessageFormat::Human => {
+            let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+            eprint!("{}", render::report(diagnostics, texts, color, 100));
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Bending along warp and weft, twist, and bending across the edges of bands and seams.
+//!
+//! Cloth hardly stretches, and then the curvature is a linear function of the positions: every
+//! term here is ½ s |Σ cᵢ xᵢ|² with fixed weights that add up to zero, so the stiffness never
+//! changes (Bergou, Wardetzky, Harmon, Zorin and Grinspun 2006).
+//!
+//! - Between two cells of the grid that share an edge, the second difference of the three knots
+//!   along each of the two lines that cross it: ½ B κ² on half of the cell's width.
+//! - In a cell, the mixed difference: the energy B(1 − ν) κ²_uv of a plate, with the mean of B.
+//! - Across any other edge with a face on both sides, a hinge: ½ B |e|² / (A₁ + A₂) θ², exact for
+//!   a strip of equal triangles bent across their edges (Seung and Nelson 1988 for equilateral
+//!   ones), where a cell counts as the triangle whose tip is the middle of its far edge.
+
+use super::weld::Weld;
+use crate::mesh::compiled::Compiled;
+
+/// One term of bending.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fold {
+    /// Knots, the first `count` of them used.
+    pub knots: [u32; 6],
+    /// Their weights, 1/m.
+    pub weights: [f64; 6],
+    /// How many.
+    pub count: usize,
+    /// Stiffness s, N·m.
+    pub stiffness: f64,
+}
+
+impl Fold {
+    fn new(terms: &[(u32, f64)], stiffness: f64) -> Self {
+        let mut fold = Fold { knots: [0; 6], weights: [0.0; 6], count: 0, stiffness };
+        for &(knot, weight) in terms {
+            match fold.knots[..fold.count].iter().position(|&k| k == knot) {
+                Some(same) => fold.weights[same] += weight,
+                None if fold.count < 6 => {
+                    fold.knots[fold.count] = knot;
+                    fold.weights[fold.count] = weight;
+                    fold.count += 1;
+                }
+                None => {}
+            }
+        }
+        fold
+    }
+
+    /// Its knots and weights.
+    pub fn terms(&self) -> impl Iterator<Item = (u32, f64)> + Clone + '_ {
+        self.knots.iter().copied().zip(self.weights).take(self.count)
+    }
+}
+
+/// A face at an edge, as bending sees it.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// The edge by its knots, the lower first.
+    edge: [u32; 2],
+    /// The face: cells count from 0, triangles after them.
+    face: u32,
+    /// Knots opposite to the two ends; for triangles both are the tip.
+    far: [u32; 2],
+    panel: u32,
+    is_cell: bool,
+    /// Length of the edge, height of the tip over it, and the foot of that height as a share of
+    /// the way from the lower knot.
+    length: f64,
+    height: f64,
+    foot: f64,
+    /// Direction across the edge: share along the warp, squared.
+    warp: f64,
+}
+
+/// All terms of bending of a cloth.
+pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
+    let mut folds = Vec::new();
+    let mut sides = Vec::new();
+    for (number, panel) in compiled.panels.iter().enumerate() {
+        let fabric = &compiled.fabrics[panel.fabric];
+        let [warp, weft] = fabric.bending.map(|b| b.max(0.0));
+        let mean = (warp * weft).sqrt();
+        let h = panel.cell;
+        for c in panel.cells.range() {
+            let corners = compiled.cells[c].map(|p| weld.knot[p as usize]);
+            let twist = [(corners[0], 1.0 / h), (corners[1], -1.0 / h), (corners[2], 1.0 / h), (corners[3], -1.0 / h)];
+            folds.push(Fold::new(&twist, 2.0 * mean * (1.0 - fabric.poisson.clamp(-0.5, 0.95))));
+            for e in 0..4 {
+                let (a, b) = (corners[e], corners[(e + 1) % 4]);
+                let (fa, fb) = (corners[(e + 3) % 4], corners[(e + 2) % 4]);
+                let (edge, far) = if a <= b { ([a, b], [fa, fb]) } else { ([b, a], [fb, fa]) };
+                sides.push(Side {
+                    edge,
+                    face: c as u32,
+                    far,
+                    panel: number as u32,
+                    is_cell: true,
+                    length: h,
+                    height: h,
+                    foot: 0.5,
+                    warp: if e % 2 == 0 { 1.0 } else { 0.0 },
+                });
+            }
+        }
+        for t in panel.triangles.range() {
+            let particles = compiled.triangles[t];
+            for e in 0..3 {
+                let [p, q, r] = [particles[e], particles[(e + 1) % 3], particles[(e + 2) % 3]];
+                let [a, b, tip] = [p, q, r].map(|p| weld.knot[p as usize]);
+                let (p, q) = if a <= b { (p, q) } else { (q, p) };
+                let [p, q, r] = [p, q, r].map(|p| compiled.particles[p as usize]);
+                let along = [q[0] - p[0], q[1] - p[1]];
+                let up = [r[0] - p[0], r[1] - p[1]];
+                let square = along[0] * along[0] + along[1] * along[1];
+                let length = square.sqrt();
+                if !(length > 0.0) {
+                    continue;
+                }
+                let height = (along[0] * up[1] - along[1] * up[0]).abs() / length;
+                if !(height > 1e-9) {
+                    continue;
+                }
+                sides.push(Side {
+                    edge: [a.min(b), a.max(b)],
+                    face: (compiled.cells.len() + t) as u32,
+                    far: [tip, tip],
+                    panel: number as u32,
+                    is_cell: false,
+                    length,
+                    height,
+                    foot: (along[0] * up[0] + along[1] * up[1]) / square,
+                    warp: along[0] * along[0] / square,
+                });
+            }
+        }
+    }
+    sides.sort_by_key(|s| (s.edge, s.face));
+    for group in sides.chunk_by(|a, b| a.edge == b.edge) {
+        for pair in group.windows(2) {
+            let [a, b] = pair else { continue };
+            if a.edge[0] == a.edge[1] || a.face == b.face {
+                continue;
+            }
+            let rigidity = |s: &Side| {
+                let panel = &compiled.panels[s.panel as usize];
+                let [warp, weft] = compiled.fabrics[panel.fabric].bending.map(|b| b.max(0.0));
+                warp * s.warp + weft * (1.0 - s.warp)
+            };
+            if a.is_cell && b.is_cell && a.panel == b.panel {
+                let h = a.length;
+                for end in 0..2 {
+                    let terms =
+                        [(a.far[end], 1.0 / h), (a.edge[end], -2.0 / h), (b.far[end], 1.0 / h)];
+                    folds.push(Fold::new(&terms, 0.5 * rigidity(a)));
+                }
+            } else {
+                let areas = [a, b].map(|s| 0.5 * s.length * s.height);
+                let total = areas[0] + areas[1];
+                let rigidity = (rigidity(a) * areas[0] + rigidity(b) * areas[1]) / total;
+                let length = 0.5 * (a.length + b.length);
+                let mut terms = [(0, 0.0); 8];
+                for (k, s) in [a, b].into_iter().enumerate() {
+                    let w = 1.0 / s.height;
+                    terms[4 * k] = (s.far[0], 0.5 * w);
+                    terms[4 * k + 1] = (s.far[1], 0.5 * w);
+                    terms[4 * k + 2] = (s.edge[0], -(1.0 - s.foot) * w);
+                    terms[4 * k + 3] = (s.edge[1], -s.foot * w);
+                }
+                folds.push(Fold::new(&terms, rigidity * length * length / total));
+            }
+        }
+    }
+    folds
+}

@@ -1,0 +1,192 @@
+//! A cloth as the solver sees it: knots with mass, threads, shearing cells, band triangles, folds.
+
+use super::bending::{self, Fold};
+use super::matrix::{Matrix, Pattern};
+use super::membrane::{self, Triangle};
+use super::shear::Cell;
+use super::tension::Spring;
+use super::weld::Weld;
+use crate::mesh::compiled::Compiled;
+
+/// The mechanics of a cloth at one state of its seams.
+#[derive(Clone, Debug, Default)]
+pub struct Cloth {
+    /// Which particles are one.
+    pub weld: Weld,
+    /// Mass of each knot, kg.
+    pub mass: Vec<f64>,
+    /// Area of each knot, m².
+    pub area: Vec<f64>,
+    /// Thickness of the cloth at each knot, m.
+    pub thickness: Vec<f64>,
+    /// Coulomb friction of the cloth at each knot.
+    pub friction: Vec<f64>,
+    /// Stretches of thread.
+    pub springs: Vec<Spring>,
+    /// Cells in shear.
+    pub cells: Vec<Cell>,
+    /// Triangles of the bands.
+    pub triangles: Vec<Triangle>,
+    /// Bending.
+    pub folds: Vec<Fold>,
+    /// All faces as triangles of knots, cells cut in two; anticlockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+    /// Shortest side of a grid cell, m.
+    pub cell: f64,
+    /// Stiffness of bending off the diagonal, in the order of the matrix's blocks, N/m.
+    pub fold_off: Vec<f64>,
+    /// Seconds of damping per stiffness: the viscous share of every elastic force is this times
+    /// its rate (Rayleigh's second coefficient).
+    pub damping: f64,
+}
+
+/// Frequency at which a fabric's share of critical damping holds, rad/s: folds of a skirt swing
+/// about twice a second.
+const SWING: f64 = 12.0;
+
+impl Cloth {
+    /// Builds the cloth, and an empty matrix in which all its stiffness and the given further
+    /// pairs of knots have a place.
+    pub fn new(compiled: &Compiled, weld: Weld, sewn: &[[u32; 2]]) -> (Self, Matrix) {
+        let n = weld.count;
+        let mut cloth = Cloth {
+            mass: vec![0.0; n],
+            area: vec![0.0; n],
+            thickness: vec![0.0; n],
+            friction: vec![0.0; n],
+            cell: f64::INFINITY,
+            folds: bending::folds(compiled, &weld),
+            weld,
+            ..Cloth::default()
+        };
+        let mut damping = 0.0;
+        for panel in &compiled.panels {
+            let fabric = &compiled.fabrics[panel.fabric];
+            let h = panel.cell;
+            cloth.cell = cloth.cell.min(h);
+            let mut lump = |cloth: &mut Cloth, knots: &[u32], area: f64| {
+                let share = area / knots.len() as f64;
+                for &k in knots {
+                    let k = k as usize;
+                    cloth.area[k] += share;
+                    cloth.mass[k] += share * fabric.mass.max(1e-4);
+                    cloth.thickness[k] = cloth.thickness[k].max(fabric.thickness);
+                    cloth.friction[k] = cloth.friction[k].max(fabric.friction);
+                }
+                damping += area * fabric.mass.max(1e-4) * fabric.damping.clamp(0.0, 1.0);
+            };
+            let mut edges: Vec<([u32; 2], bool)> = Vec::new();
+            for c in panel.cells.range() {
+                let particles = compiled.cells[c];
+                let corners = particles.map(|p| cloth.weld.knot[p as usize]);
+                lump(&mut cloth, &corners, h * h);
+                cloth.cells.push(Cell {
+                    corners,
+                    slots: [None; 12],
+                    side: h,
+                    modulus: fabric.shear.max(0.0),
+                });
+                cloth.faces.push([corners[0], corners[1], corners[2]]);
+                cloth.faces.push([corners[0], corners[2], corners[3]]);
+                let [a, b, c, d] = particles;
+                edges.extend([([a, b], false), ([d, c], false), ([b, c], true), ([a, d], true)]);
+            }
+            edges.sort_unstable();
+            for same in edges.chunk_by(|a, b| a == b) {
+                let ([a, b], warp) = same[0];
+                let modulus = fabric.tensile[usize::from(!warp)].max(1e-3);
+                cloth.springs.push(Spring {
+                    ends: [a, b].map(|p| cloth.weld.knot[p as usize]),
+                    slots: None,
+                    rest: h,
+                    stiffness: 0.5 * modulus * same.len() as f64,
+                    warp,
+                });
+            }
+            for t in panel.triangles.range() {
+                let particles = compiled.triangles[t];
+                let corners = particles.map(|p| cloth.weld.knot[p as usize]);
+                let uv = particles.map(|p| compiled.particles[p as usize]);
+                cloth.faces.push(corners);
+                let Some((gradient, area)) = membrane::rest(uv) else { continue };
+                lump(&mut cloth, &corners, area);
+                cloth.triangles.push(Triangle {
+                    corners,
+                    slots: [None; 6],
+                    gradient,
+                    area,
+                    tensile: fabric.tensile.map(|k| k.max(1e-3)),
+                    shear: fabric.shear.max(0.0),
+                });
+            }
+        }
+        // A particle of no face at all still needs a mass to be solved for.
+        let total: f64 = cloth.mass.iter().sum();
+        for m in &mut cloth.mass {
+            if !(*m > 0.0) {
+                *m = 1e-6;
+            }
+        }
+        if !cloth.cell.is_finite() {
+            cloth.cell = 0.01;
+        }
+        cloth.damping = if total > 0.0 { 2.0 * damping / total / SWING } else { 0.0 };
+        let matrix = cloth.lay_out(sewn);
+        (cloth, matrix)
+    }
+
+    /// Number of knots.
+    pub fn knots(&self) -> usize {
+        self.mass.len()
+    }
+
+    fn lay_out(&mut self, sewn: &[[u32; 2]]) -> Matrix {
+        let springs = self.springs.iter().map(|s| s.ends);
+        let cells = self.cells.iter().flat_map(|c| pairs(&c.corners));
+        let triangles = self.triangles.iter().flat_map(|t| pairs(&t.corners));
+        let folds = self.folds.iter().flat_map(|f| pairs(&f.knots[..f.count]));
+        let all = springs.chain(cells).chain(triangles).chain(folds).chain(sewn.iter().copied());
+        let pattern = Pattern::new(self.knots(), all);
+        for s in &mut self.springs {
+            let [a, b] = s.ends;
+            s.slots = match (pattern.slot(a, b), pattern.slot(b, a)) {
+                (Some(ab), Some(ba)) => Some([ab, ba]),
+                _ => None,
+            };
+        }
+        for c in &mut self.cells {
+            let mut k = 0;
+            for i in 0..4 {
+                for j in (0..4).filter(|&j| j != i) {
+                    c.slots[k] = pattern.slot(c.corners[i], c.corners[j]);
+                    k += 1;
+                }
+            }
+        }
+        for t in &mut self.triangles {
+            let mut k = 0;
+            for i in 0..3 {
+                for j in (0..3).filter(|&j| j != i) {
+                    t.slots[k] = pattern.slot(t.corners[i], t.corners[j]);
+                    k += 1;
+                }
+            }
+        }
+        self.fold_off = vec![0.0; pattern.blocks()];
+        for fold in &self.folds {
+            for (i, wi) in fold.terms() {
+                for (j, wj) in fold.terms() {
+                    let value = fold.stiffness * wi * wj;
+                    if let Some(slot) = pattern.slot(i, j) {
+                        self.fold_off[slot as usize] += value;
+                    }
+                }
+            }
+        }
+        Matrix::new(pattern)
+    }
+}
+
+fn pairs(knots: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    (0..knots.len()).flat_map(move |i| (0..i).map(move |j| [knots[i], knots[j]]))
+}

@@ -1,0 +1,109 @@
+//! Panels that nothing places: each is laid against the neighbour it is sewn to.
+
+use super::drawing;
+use crate::mesh::compiled::Compiled;
+use nalgebra::{Matrix3, Point3, Vector3};
+
+/// Lays every panel that is not `done` against those that are, as long as a seam leads to one.
+/// What no seam leads to stays at the origin's plane, laid flat.
+pub(super) fn follow(compiled: &Compiled, done: &mut [bool], positions: &mut [Point3<f64>]) {
+    let owner = owners(compiled);
+    loop {
+        let mut progress = false;
+        for number in 0..compiled.panels.len() {
+            if done[number] {
+                continue;
+            }
+            let mut pairs = Vec::new();
+            for seam in &compiled.seams {
+                for &[a, b] in &seam.pairs {
+                    let (a, b) = (a as usize, b as usize);
+                    if owner[a] == number && done[owner[b]] {
+                        pairs.push((a, b));
+                    } else if owner[b] == number && done[owner[a]] {
+                        pairs.push((b, a));
+                    }
+                }
+            }
+            if pairs.len() < 2 {
+                continue;
+            }
+            lay_against(compiled, number, &pairs, &owner, positions);
+            done[number] = true;
+            progress = true;
+        }
+        if !progress {
+            break;
+        }
+    }
+    for (number, panel) in compiled.panels.iter().enumerate() {
+        if !done[number] {
+            for (k, [x, y]) in drawing(compiled, panel) {
+                positions[k] = Point3::new(x, y + 1.0, 0.5);
+            }
+            done[number] = true;
+        }
+    }
+}
+
+/// The panel of each particle.
+fn owners(compiled: &Compiled) -> Vec<usize> {
+    let mut owner = vec![0; compiled.particles.len()];
+    for (number, panel) in compiled.panels.iter().enumerate() {
+        for k in panel.particles.range() {
+            owner[k] = number;
+        }
+    }
+    owner
+}
+
+/// Moves panel `number` rigidly so that its seam points come near their partners and it goes on
+/// where the partner ends (best rotation: Kabsch 1976).
+fn lay_against(
+    compiled: &Compiled,
+    number: usize,
+    pairs: &[(usize, usize)],
+    owner: &[usize],
+    positions: &mut [Point3<f64>],
+) {
+    let panel = &compiled.panels[number];
+    let flat: Vec<Point3<f64>> =
+        drawing(compiled, panel).map(|(_, [x, y])| Point3::new(x, y, 0.0)).collect();
+    let first = panel.particles.range().start;
+    let mut own: Vec<Point3<f64>> = pairs.iter().map(|(a, _)| flat[a - first]).collect();
+    let mut goal: Vec<Point3<f64>> = pairs.iter().map(|(_, b)| positions[*b]).collect();
+    // One more pair turns the panel away from its partner: own middle against the partner's
+    // middle mirrored in the seam.
+    let middle = mean(&flat);
+    let partner = owner[pairs[0].1];
+    let beyond: Vec<Point3<f64>> =
+        compiled.panels[partner].particles.range().map(|k| positions[k]).collect();
+    let (seam_own, seam_goal) = (mean(&own), mean(&goal));
+    let away = seam_goal - mean(&beyond);
+    if away.norm() > 1e-9 {
+        let reach = (middle - seam_own).norm();
+        for _ in 0..pairs.len().div_ceil(2) {
+            own.push(middle);
+            goal.push(seam_goal + away.normalize() * reach);
+        }
+    }
+    let (from, to) = (mean(&own), mean(&goal));
+    let mut spread = Matrix3::zeros();
+    for (a, b) in own.iter().zip(&goal) {
+        spread += (b - to) * (a - from).transpose();
+    }
+    let svd = spread.svd(true, true);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return };
+    let mut turn = u * v;
+    if turn.determinant() < 0.0 {
+        turn = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, -1.0)) * v;
+    }
+    for (k, place) in panel.particles.range().zip(&flat) {
+        positions[k] = to + turn * (place - from);
+    }
+}
+
+fn mean(points: &[Point3<f64>]) -> Point3<f64> {
+    let sum = points.iter().fold(Vector3::zeros(), |sum, p| sum + p.coords);
+    Point3::from(sum / points.len().max(1) as f64)
+}

@@ -1,0 +1,156 @@
+//! The lines of a drape schedule: sew, settle, run.
+
+use super::conjugate::Aim;
+use super::step::{Manner, Stuck, Workshop};
+use crate::progress::Progress;
+
+/// How a line of the schedule went.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Course {
+    /// Steps taken.
+    pub steps: usize,
+    /// Time of the cloth that passed, s.
+    pub time: f64,
+    /// Largest speed at the end, m/s.
+    pub speed: f64,
+    /// Whether what was asked for came to pass.
+    pub reached: bool,
+    /// Iterations of the linear solver, all steps together.
+    pub iterations: usize,
+}
+
+/// Most steps to close the seams.
+const SEWING_STEPS: usize = 600;
+
+/// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m.
+///
+/// # Errors
+/// [`Stuck`] from the step.
+pub fn sew(
+    shop: &mut Workshop<'_>,
+    gap: f64,
+    progress: &mut dyn Progress,
+) -> Result<Course, Stuck> {
+    let mut course = Course::default();
+    let mut strength = 1.0f64;
+    let first = shop.sewing.gap(&shop.x).0;
+    let mut least = f64::INFINITY;
+    let mut since = 0;
+    while course.steps < SEWING_STEPS {
+        let (widest, _) = shop.sewing.gap(&shop.x);
+        if widest <= gap {
+            course.reached = true;
+            break;
+        }
+        progress.share(
+            1.0 - (widest - gap) / (first - gap).max(1e-9),
+            &format!("gap {:.1} mm", widest * 1e3),
+        );
+        // A seam that no longer comes nearer is drawn harder.
+        if widest < 0.97 * least {
+            least = widest;
+            since = 0;
+        } else {
+            since += 1;
+            if since >= 8 {
+                strength = (strength * 1.6).min(200.0);
+                since = 0;
+            }
+        }
+        let taken = shop.step(&Manner {
+            dt: 1.0 / 30.0,
+            gravity: 0.0,
+            air: 0.0,
+            calm: 10.0,
+            grip: 0.05,
+            sewing: strength,
+            near: 0.008,
+            layers: false,
+            aim: Aim { tolerance: 2e-2, most: 200 },
+        })?;
+        add(&mut course, taken);
+    }
+    Ok(course)
+}
+
+/// Lets the cloth come to rest: until nothing moves faster than `speed`, m/s, for three steps
+/// running, or `within` seconds of its own time have passed.
+///
+/// # Errors
+/// [`Stuck`] from the step.
+pub fn settle(
+    shop: &mut Workshop<'_>,
+    speed: f64,
+    within: f64,
+    air: f64,
+    progress: &mut dyn Progress,
+) -> Result<Course, Stuck> {
+    let mut course = Course::default();
+    let mut still = 0;
+    // Falling is left to itself for a while, so that folds form as they would; then calm grows.
+    let free = 0.7;
+    let most = ((within * 60.0) as usize).clamp(1, 40_000) * 2;
+    let mut moved = 1.0f64;
+    while course.time < within && course.steps < most {
+        let slow = (moved / speed.max(1e-5)).max(1.0);
+        let dt = if course.time < free || slow > 200.0 { 1.0 / 60.0 } else { 1.0 / 30.0 };
+        let calm = if course.time < free { 0.5 } else { (0.5 + 3.0 * (course.time - free)).min(6.0) };
+        let taken = shop.step(&Manner {
+            dt,
+            air,
+            calm,
+            sewing: 1.0,
+            aim: Aim { tolerance: 1e-2, most: 300 },
+            ..Manner::default()
+        })?;
+        moved = taken.speed;
+        add(&mut course, taken);
+        still = if taken.speed < speed && taken.pinned { still + 1 } else { 0 };
+        if still >= 3 {
+            course.reached = true;
+            break;
+        }
+        progress.share(
+            (course.time / within).max(1.0 - (slow.ln() / 8.0).min(1.0)).min(1.0),
+            &format!("{:.1} mm/s", taken.speed * 1e3),
+        );
+    }
+    Ok(course)
+}
+
+/// Lets time pass.
+///
+/// # Errors
+/// [`Stuck`] from the step.
+pub fn run(
+    shop: &mut Workshop<'_>,
+    time: f64,
+    rate: f64,
+    air: f64,
+    progress: &mut dyn Progress,
+) -> Result<Course, Stuck> {
+    let mut course = Course::default();
+    let rate = if rate.is_finite() { rate.clamp(1.0, 1000.0) } else { 60.0 };
+    // At least 120 steps a second, and a whole number of them a frame.
+    let dt = 1.0 / (rate * (120.0 / rate).ceil().max(1.0));
+    let most = ((time / dt) as usize).min(200_000) * 4 + 8;
+    while course.time < time - 1e-9 && course.steps < most {
+        let taken = shop.step(&Manner {
+            dt: dt.min(time - course.time),
+            air,
+            sewing: 1.0,
+            ..Manner::default()
+        })?;
+        add(&mut course, taken);
+        progress.share(course.time / time, &format!("{:.2} s", course.time));
+    }
+    course.reached = course.time >= time - 1e-9;
+    Ok(course)
+}
+
+fn add(course: &mut Course, taken: super::step::Taken) {
+    course.steps += 1;
+    course.time += taken.time;
+    course.speed = taken.speed;
+    course.iterations += taken.iterations;
+}

@@ -1,0 +1,322 @@
+//! Contact of cloth with bodies and solids, with dry friction.
+//!
+//! Each knot keeps its distance from the nearest skin. Closer than the cloth's place on the skin
+//! a stiff spring along the normal pushes it away, taken implicitly; deeper than a margin it is
+//! lifted at once, so that nothing stays inside. Friction is Coulomb's with a memory: a knot that
+//! touches is held to the point of the skin where it came to rest by a spring that gives
+//! 0.1 mm before it slips, so that cloth at rest does not creep.
+
+use super::cloth::Cloth;
+use super::matrix::ROWS;
+use crate::body::distance::Field;
+use nalgebra::{Matrix3, Point3, Vector3};
+use rayon::prelude::*;
+
+/// Space between the skin and the middle of the cloth besides half its thickness, m: chords of
+/// the cloth between two knots must not show the skin.
+pub const MARGIN: f64 = 1.8e-3;
+
+/// How far a loaded knot may press into that space, m.
+const GIVE: f64 = 1.0e-3;
+
+/// Contact stiffness per area, N/m³: the pressure of a tight waistband, 800 Pa, presses 0.4 mm.
+const STIFFNESS: f64 = 2.0e6;
+
+/// Elastic play of a sticking contact, m.
+const PLAY: f64 = 1.0e-4;
+
+/// Knots farther from all skin than this are not looked at until they have come nearer, m.
+const REACH: f64 = 0.04;
+
+/// Answer to the question how far a place is from all skin.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest {
+    /// Distance, m; negative inside.
+    pub distance: f64,
+    /// Unit normal, outwards.
+    pub normal: Vector3<f64>,
+    /// Coulomb friction of the thing itself, where it has one.
+    pub friction: Option<f64>,
+}
+
+/// Something that cloth lies on.
+pub trait Skin: Sync {
+    /// The nearest skin to a place; `None` if there is none at all.
+    fn nearest(&self, place: &Vector3<f64>) -> Option<Nearest>;
+}
+
+/// Bodies and solids of a scene.
+pub struct Figures {
+    field: Field,
+    friction: Vec<Option<f64>>,
+}
+
+impl Figures {
+    /// Takes the surfaces.
+    pub fn new(surfaces: &[crate::body::surface::Surface]) -> Self {
+        Figures {
+            field: Field::new(surfaces),
+            friction: surfaces.iter().map(|s| s.friction).collect(),
+        }
+    }
+}
+
+impl Skin for Figures {
+    fn nearest(&self, place: &Vector3<f64>) -> Option<Nearest> {
+        let probe = self.field.probe(Point3::from(*place))?;
+        Some(Nearest {
+            distance: probe.distance,
+            normal: probe.normal,
+            friction: self.friction.get(probe.surface).copied().flatten(),
+        })
+    }
+}
+
+/// What one knot knows of the skin.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Place it was looked at.
+    at: Vector3<f64>,
+    /// Distance found there, m.
+    pub distance: f64,
+    /// Normal found there.
+    pub normal: Vector3<f64>,
+    /// Friction of the pair.
+    friction: f64,
+    /// Where it sticks.
+    anchor: Option<Vector3<f64>>,
+    /// Normal force at the end of the last step, N.
+    load: f64,
+    /// Stiffness along the normal in the step that is under way; zero if not in contact.
+    active: f64,
+}
+
+/// Contact of all knots.
+#[derive(Clone, Debug, Default)]
+pub struct Contact {
+    touches: Vec<Touch>,
+    any: bool,
+}
+
+/// Force on a knot and its stiffness.
+pub type Push = (Vector3<f64>, Matrix3<f64>);
+
+impl Contact {
+    /// Looks for skin near all knots.
+    pub fn new(cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) -> Self {
+        let touches = x
+            .iter()
+            .map(|x| Touch {
+                at: *x,
+                distance: -1.0,
+                normal: Vector3::y(),
+                friction: 0.0,
+                anchor: None,
+                load: 0.0,
+                active: 0.0,
+            })
+            .collect();
+        let mut contact = Contact { touches, any: skin.nearest(&Vector3::zeros()).is_some() };
+        contact.look(cloth, skin, x);
+        contact
+    }
+
+    /// Distance of the cloth's middle from the skin at a knot that lies on it, m.
+    pub fn seat(cloth: &Cloth, knot: usize) -> f64 {
+        0.5 * cloth.thickness[knot] + MARGIN
+    }
+
+    /// A bound on how far each knot can move without meeting skin, or what is found there.
+    pub fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
+    /// Whether there is anything to touch.
+    pub fn is_empty(&self) -> bool {
+        !self.any
+    }
+
+    /// Brings all distances up to date.
+    pub fn look(&mut self, cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) {
+        if !self.any {
+            return;
+        }
+        self.touches.par_iter_mut().zip(x).enumerate().with_min_len(64).for_each(
+            |(i, (touch, x))| {
+                let moved = (x - touch.at).norm();
+                if touch.distance - moved > REACH || moved == 0.0 && touch.distance >= 0.0 {
+                    return;
+                }
+                let Some(nearest) = skin.nearest(x) else { return };
+                touch.at = *x;
+                touch.distance = nearest.distance;
+                touch.normal = nearest.normal;
+                touch.friction = nearest.friction.unwrap_or(cloth.friction[i]).max(0.0);
+            },
+        );
+    }
+
+    /// How far a knot may go in one step, m: beyond the reach of skin as far as skin is away,
+    /// near it no further than `near`.
+    pub fn leeway(&self, knot: usize, x: &Vector3<f64>, near: f64) -> f64 {
+        if !self.any {
+            return f64::INFINITY;
+        }
+        let touch = &self.touches[knot];
+        let free = touch.distance - (x - touch.at).norm();
+        (0.8 * free).max(near)
+    }
+
+    /// Contact and friction of a step from places x, of which `ahead` is the movement expected
+    /// and `slide` the movement by which friction is judged. `grip` scales friction.
+    pub fn push(
+        &mut self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        ahead: &[Vector3<f64>],
+        slide: &[Vector3<f64>],
+        grip: f64,
+    ) -> Vec<Option<Push>> {
+        if !self.any {
+            return Vec::new();
+        }
+        self.touches
+            .par_iter_mut()
+            .zip(x)
+            .zip(ahead)
+            .zip(slide)
+            .enumerate()
+            .with_min_len(ROWS)
+            .map(|(i, (((touch, x), ahead), slide))| {
+                touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, slide, grip)
+            })
+            .collect()
+    }
+
+    /// Bends an expected movement so that knots in contact come to lie on the skin, and takes
+    /// from a second one what they will not do.
+    pub fn guide(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        dx: &mut [Vector3<f64>],
+        fall: &mut [Vector3<f64>],
+    ) {
+        for (i, touch) in self.touches.iter().enumerate().filter(|(_, t)| t.active > 0.0) {
+            let n = touch.normal;
+            let gap = touch.distance + (x[i] + dx[i] - touch.at).dot(&n) - Self::seat(cloth, i);
+            dx[i] -= n * (gap + touch.load / touch.active);
+            fall[i] = Vector3::zeros();
+        }
+    }
+
+    /// Whether a movement would press a knot that had no contact into the skin.
+    pub fn runs_into(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        dx: &[Vector3<f64>],
+        pushes: &[Option<Push>],
+    ) -> bool {
+        pushes.iter().enumerate().any(|(i, push)| {
+            let touch = &self.touches[i];
+            push.is_none()
+                && touch.distance - (x[i] - touch.at).norm() < REACH
+                && touch.distance + (x[i] + dx[i] - touch.at).dot(&touch.normal)
+                    < Self::seat(cloth, i) - 0.3 * GIVE
+        })
+    }
+
+    /// After a step from x to x + dx: loads and anchors for the next.
+    pub fn settle(&mut self, cloth: &Cloth, x: &[Vector3<f64>], dx: &[Vector3<f64>]) {
+        if !self.any {
+            return;
+        }
+        for (i, ((touch, x), dx)) in self.touches.iter_mut().zip(x).zip(dx).enumerate() {
+            touch.settle(Self::seat(cloth, i), x, dx);
+        }
+    }
+
+    /// Lifts knots that are deeper than the margin allows out to it and takes their inward speed;
+    /// to be called with distances up to date.
+    pub fn lift(&mut self, cloth: &Cloth, x: &mut [Vector3<f64>], v: &mut [Vector3<f64>]) {
+        if !self.any {
+            return;
+        }
+        for (i, touch) in self.touches.iter_mut().enumerate() {
+            let least = Self::seat(cloth, i) - GIVE;
+            if touch.distance < least {
+                x[i] += touch.normal * (least - touch.distance);
+                touch.at = x[i];
+                touch.distance = least;
+                let inward = v[i].dot(&touch.normal).min(0.0);
+                v[i] -= touch.normal * inward;
+            }
+        }
+    }
+}
+
+impl Touch {
+    fn push(
+        &mut self,
+        seat: f64,
+        area: f64,
+        x: &Vector3<f64>,
+        ahead: &Vector3<f64>,
+        slide: &Vector3<f64>,
+        grip: f64,
+    ) -> Option<Push> {
+        self.active = 0.0;
+        if self.distance - (x - self.at).norm() > REACH {
+            self.anchor = None;
+            self.load = 0.0;
+            return None;
+        }
+        let n = self.normal;
+        let gap = self.distance + (x - self.at).dot(&n) - seat;
+        if gap > 0.0 && gap + ahead.dot(&n) > 0.0 {
+            if gap > GIVE {
+                self.anchor = None;
+                self.load = 0.0;
+            }
+            return None;
+        }
+        self.active = STIFFNESS * area;
+        let along = n * n.transpose();
+        let mut force = -n * (self.active * gap);
+        let mut stiffness = along * self.active;
+        let limit = grip * self.friction * self.load;
+        let anchor = *self.anchor.get_or_insert(*x);
+        if limit > 0.0 {
+            let across = |d: Vector3<f64>| d - n * d.dot(&n);
+            let slip = across(x - anchor);
+            let expected = (slip + across(*slide)).norm().max(PLAY);
+            let k = limit / expected;
+            force -= slip * k;
+            stiffness += (Matrix3::identity() - along) * k;
+        }
+        Some((force, stiffness))
+    }
+
+    fn settle(&mut self, seat: f64, x: &Vector3<f64>, dx: &Vector3<f64>) {
+        if self.active == 0.0 {
+            self.load = 0.0;
+            return;
+        }
+        let n = self.normal;
+        let place = x + dx;
+        let gap = self.distance + (place - self.at).dot(&n) - seat;
+        self.load = self.active * (-gap).max(0.0);
+        if let Some(anchor) = &mut self.anchor {
+            let off = place - *anchor;
+            let normal = n * off.dot(&n);
+            let slip = off - normal;
+            let size = slip.norm();
+            // The anchor follows the skin's normal freely and is dragged along once it slips.
+            *anchor += normal;
+            if size > PLAY {
+                *anchor += slip * (1.0 - PLAY / size);
+            }
+        }
+    }
+}

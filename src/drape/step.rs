@@ -1,0 +1,362 @@
+//! One step in time: linearised implicit Euler (Baraff and Witkin 1998).
+//!
+//! With the stiffness K at the beginning of the step, (M/dt² + C/dt + K) dx = M v/dt + f. The
+//! movement is solved for, not the change of speed, so that a held knot is simply one that does
+//! not move. Contact that the first solution would run into is added, and the step solved again.
+
+use super::air;
+use super::cloth::Cloth;
+use super::conjugate::{self, Aim, Space};
+use super::elastic;
+use super::hold::Holds;
+use super::layers::{Layers, Touches};
+use super::matrix::{Block, Lane, Matrix, add, add_scalar, lane, vector};
+use super::precondition::Factor;
+use super::sewing::Sewing;
+use super::skin::{Contact, Push, Skin};
+use super::weld::Weld;
+use crate::body::surface::Surface;
+use crate::mesh::compiled::Compiled;
+use nalgebra::Vector3;
+
+/// How a step is taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Manner {
+    /// Length of the step, s.
+    pub dt: f64,
+    /// Acceleration downwards, m/s².
+    pub gravity: f64,
+    /// Density of the air, kg/m³.
+    pub air: f64,
+    /// Rate at which all movement dies away, 1/s.
+    pub calm: f64,
+    /// Share of friction that counts.
+    pub grip: f64,
+    /// Strength of open seams, as a share of their ordinary pull.
+    pub sewing: f64,
+    /// Farthest movement of a knot near skin in one step, m.
+    pub near: f64,
+    /// Whether layers of cloth are kept apart.
+    pub layers: bool,
+    /// When the linear solution is good enough.
+    pub aim: Aim,
+}
+
+impl Default for Manner {
+    fn default() -> Self {
+        Manner {
+            dt: 1.0 / 120.0,
+            gravity: 9.80665,
+            air: 1.2,
+            calm: 0.0,
+            grip: 1.0,
+            sewing: 0.0,
+            near: 0.01,
+            layers: true,
+            aim: Aim { tolerance: 1e-2, most: 400 },
+        }
+    }
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Taken {
+    /// Time that passed, s; less than asked where the step had to be cut.
+    pub time: f64,
+    /// Largest speed of a knot, m/s.
+    pub speed: f64,
+    /// Iterations of the linear solver.
+    pub iterations: usize,
+    /// Whether all pins are in their places.
+    pub pinned: bool,
+    /// Contacts of cloth with cloth.
+    pub touches: usize,
+    /// Knots whose movement was cut short lest cloth pass through cloth.
+    pub cut: usize,
+}
+
+/// No step however short gave finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stuck;
+
+/// A cloth in movement.
+pub struct Workshop<'a> {
+    /// Its mechanics.
+    pub cloth: Cloth,
+    /// Places of the knots, m.
+    pub x: Vec<Vector3<f64>>,
+    /// Speeds of the knots, m/s.
+    pub v: Vec<Vector3<f64>>,
+    /// Open seams.
+    pub sewing: Sewing,
+    /// What is held.
+    pub holds: Holds,
+    /// Contact with skin.
+    pub contact: Contact,
+    /// Contact of cloth with cloth; taken up with the first step that asks for it.
+    layers: Option<Layers>,
+    /// Steps until tangles are looked for again.
+    until_look: u32,
+    skin: &'a dyn Skin,
+    matrix: Matrix,
+    factor: Factor,
+    space: Space,
+    force: Vec<Vector3<f64>>,
+    dx: Vec<Lane>,
+}
+
+/// Most times a step is halved.
+const HALVINGS: u32 = 8;
+
+/// Steps from one search for tangles to the next, while there are any.
+const LOOK: u32 = 5;
+
+/// Most times a step is solved again for contact it ran into.
+const PASSES: usize = 3;
+
+impl<'a> Workshop<'a> {
+    /// Takes up a cloth with the given welds; particles are at `positions` and at rest. A knot
+    /// of several particles lies in their middle.
+    pub fn new(
+        compiled: &Compiled,
+        surfaces: &[Surface],
+        skin: &'a dyn Skin,
+        weld: Weld,
+        positions: &[Vector3<f64>],
+    ) -> Self {
+        let mut x = vec![Vector3::zeros(); weld.count];
+        let mut count = vec![0u32; weld.count];
+        for (&knot, p) in weld.knot.iter().zip(positions) {
+            x[knot as usize] += p;
+            count[knot as usize] += 1;
+        }
+        for (x, c) in x.iter_mut().zip(&count) {
+            *x /= f64::from((*c).max(1));
+        }
+        let mut sewing = Sewing::new(compiled, &weld);
+        let open: Vec<[u32; 2]> = sewing.pairs.iter().map(|s| s.knots).collect();
+        let (cloth, matrix) = Cloth::new(compiled, weld, &open);
+        sewing.lay_out(&matrix.pattern);
+        let holds = Holds::new(compiled, surfaces, &cloth, &x);
+        let mut v = vec![Vector3::zeros(); x.len()];
+        let mut contact = Contact::new(&cloth, skin, &x);
+        contact.lift(&cloth, &mut x, &mut v);
+        Workshop {
+            factor: Factor::new(&matrix),
+            force: vec![Vector3::zeros(); x.len()],
+            dx: vec![[0.0; 4]; x.len()],
+            space: Space::default(),
+            cloth,
+            x,
+            v,
+            sewing,
+            holds,
+            contact,
+            layers: None,
+            until_look: 0,
+            skin,
+            matrix,
+        }
+    }
+
+    /// Places of all particles.
+    pub fn positions(&self) -> Vec<Vector3<f64>> {
+        self.cloth.weld.knot.iter().map(|&k| self.x[k as usize]).collect()
+    }
+
+    /// Energy of deformation and height (in the given gravity) and of movement, J.
+    pub fn energy(&self, gravity: f64) -> [f64; 2] {
+        let height: f64 =
+            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
+        [elastic::energy(&self.cloth, &self.x) + height, self.movement()]
+    }
+
+    /// Energy of movement, J.
+    pub fn movement(&self) -> f64 {
+        self.cloth.mass.iter().zip(&self.v).map(|(m, v)| 0.5 * m * v.norm_squared()).sum()
+    }
+
+    /// Takes a step. Where it gives no finite numbers a shorter one is taken.
+    ///
+    /// # Errors
+    /// [`Stuck`] if even a very short one gives none; the cloth is then as it was.
+    pub fn step(&mut self, manner: &Manner) -> Result<Taken, Stuck> {
+        let mut shorter = *manner;
+        for _ in 0..HALVINGS {
+            if let Some(taken) = self.attempt(&shorter) {
+                return Ok(taken);
+            }
+            shorter.dt *= 0.5;
+        }
+        Err(Stuck)
+    }
+
+    fn attempt(&mut self, manner: &Manner) -> Option<Taken> {
+        let dt = manner.dt;
+        let down = Vector3::new(0.0, -manner.gravity, 0.0);
+        let mut start = self.x.clone();
+        let mut speeds = self.v.clone();
+        let pinned = self.holds.move_pins(dt, &mut start, &mut speeds);
+        let base = self.assemble(&start, &speeds, manner);
+        let mut ahead: Vec<Vector3<f64>> =
+            speeds.iter().map(|v| v * dt + down * (dt * dt)).collect();
+        // Friction is judged by the last step's movement: gravity's own share is not slid yet.
+        let mut slide: Vec<Vector3<f64>> = speeds.iter().map(|v| v * dt).collect();
+        let mut touches = Touches::default();
+        let mut layers = self.layers.take().filter(|_| manner.layers);
+        if manner.layers {
+            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, &start));
+            if layers.any_tangled() {
+                self.until_look = self.until_look.checked_sub(1).unwrap_or_else(|| {
+                    layers.find_tangles(&start);
+                    LOOK
+                });
+            }
+            touches = layers.touch(&self.cloth, &start, &slide);
+        }
+        let mut iterations = 0;
+        for pass in 0..PASSES {
+            let pushes = self.contact.push(&self.cloth, &start, &ahead, &slide, manner.grip);
+            let b = self.load(&base, &pushes, &touches);
+            // Solved from the last step's movement, and the fall as far as nothing holds it up.
+            let fallen = if pass == 0 { down * (dt * dt) } else { Vector3::zeros() };
+            let mut fall = vec![fallen; start.len()];
+            let mut guess = slide.clone();
+            self.contact.guide(&self.cloth, &start, &mut guess, &mut fall);
+            for (dx, guess) in self.dx.iter_mut().zip(&guess) {
+                *dx = lane(guess);
+            }
+            let fall: Vec<Lane> = fall.iter().map(lane).collect();
+            if pass == 0 {
+                self.matrix.close();
+                touches.stiffen(&mut self.matrix);
+                self.factor.refresh(&self.matrix);
+            }
+            iterations += conjugate::solve(
+                &self.matrix,
+                &touches,
+                &mut self.factor,
+                &self.holds.held,
+                &b,
+                &fall,
+                &mut self.dx,
+                &mut self.space,
+                manner.aim,
+            );
+            ahead = self.dx.iter().map(vector).collect();
+            if ahead.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
+                self.layers = layers;
+                return None;
+            }
+            let on_skin = self.contact.runs_into(&self.cloth, &start, &ahead, &pushes);
+            let on_cloth = pass + 1 < PASSES
+                && layers
+                    .as_ref()
+                    .is_some_and(|l| l.catch(&self.cloth, &start, &ahead, &mut touches));
+            if !on_skin && !on_cloth {
+                break;
+            }
+            slide.copy_from_slice(&ahead);
+        }
+        let share = self.bound(&start, &mut ahead, manner);
+        let dt = dt * share;
+        let cut = layers.as_ref().map_or(0, |l| l.guard(&start, &mut ahead));
+        self.layers = layers;
+        self.contact.settle(&self.cloth, &start, &ahead);
+        let mut speed = 0.0f64;
+        for (i, dx) in ahead.iter().enumerate() {
+            self.x[i] = start[i] + dx;
+            self.v[i] = dx / dt;
+        }
+        self.contact.look(&self.cloth, self.skin, &self.x);
+        self.contact.lift(&self.cloth, &mut self.x, &mut self.v);
+        for v in &self.v {
+            speed = speed.max(v.norm());
+        }
+        Some(Taken { time: dt, speed, iterations, pinned, touches: touches.len(), cut })
+    }
+
+    /// Shortens a movement that goes too far near skin: the whole of it as far as one knot
+    /// demands, single knots where one would hold up all. Gives the share that is left.
+    fn bound(&self, start: &[Vector3<f64>], dx: &mut [Vector3<f64>], manner: &Manner) -> f64 {
+        let mut share = 1.0f64;
+        let leeway: Vec<f64> =
+            start.iter().enumerate().map(|(i, x)| self.contact.leeway(i, x, manner.near)).collect();
+        for (d, most) in dx.iter().zip(&leeway) {
+            let far = d.norm();
+            if far > *most {
+                share = share.min(most / far);
+            }
+        }
+        let share = share.max(0.2);
+        if share < 1.0 {
+            for (d, most) in dx.iter_mut().zip(&leeway) {
+                *d *= share;
+                let far = d.norm();
+                if far > *most {
+                    *d *= most / far;
+                }
+            }
+        }
+        share
+    }
+
+    /// Everything but contact: fills the matrix, and gives the knots' own blocks and the right-hand side.
+    fn assemble(
+        &mut self,
+        x: &[Vector3<f64>],
+        v: &[Vector3<f64>],
+        manner: &Manner,
+    ) -> (Vec<Block>, Vec<Vector3<f64>>) {
+        let dt = manner.dt;
+        let scale = 1.0 + self.cloth.damping / dt;
+        elastic::assemble(&self.cloth, x, scale, &mut self.matrix, &mut self.force);
+        let matrix = &mut self.matrix;
+        for stitch in self.sewing.pairs.iter().filter(|_| manner.sewing > 0.0) {
+            let [a, b] = stitch.knots.map(|k| k as usize);
+            let way = x[b] - x[a];
+            let k = stitch.stiffness(way.norm(), manner.sewing);
+            self.force[a] += way * k;
+            self.force[b] -= way * k;
+            add_scalar(&mut matrix.off[stitch.slots[0] as usize], -k);
+            add_scalar(&mut matrix.off[stitch.slots[1] as usize], -k);
+        }
+        matrix.own.fill([[0.0; 4]; 3]);
+        for (knot, force, k) in self.holds.pull(&self.cloth, x) {
+            self.force[knot as usize] += force;
+            add(&mut matrix.own[knot as usize], &k);
+        }
+        let normals = if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
+        for (i, force) in self.force.iter_mut().enumerate() {
+            let mass = self.cloth.mass[i];
+            force.y -= mass * manner.gravity;
+            *force += v[i] * (mass / dt);
+            let own = mass / (dt * dt) + mass * manner.calm / dt;
+            add_scalar(&mut matrix.own[i], own);
+            if let Some(normal) = normals.get(i) {
+                let drag = air::damping(manner.air, self.cloth.area[i], normal, &v[i]);
+                add(&mut matrix.own[i], &(drag / dt));
+            }
+        }
+        (matrix.own.clone(), self.force.clone())
+    }
+
+    /// Adds contact to what [`Workshop::assemble`] gave.
+    fn load(
+        &mut self,
+        base: &(Vec<Block>, Vec<Vector3<f64>>),
+        pushes: &[Option<Push>],
+        touches: &Touches,
+    ) -> Vec<Lane> {
+        self.matrix.own.copy_from_slice(&base.0);
+        let mut force = base.1.clone();
+        for (i, push) in pushes.iter().enumerate() {
+            if let Some((f, k)) = push {
+                add(&mut self.matrix.own[i], k);
+                force[i] += f;
+            }
+        }
+        touches.push(&mut force);
+        force.iter().map(lane).collect()
+    }
+}

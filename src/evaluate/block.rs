@@ -1,0 +1,504 @@
+//! Blocks: declarations hoisted, loops and choices unrolled, copies merged.
+
+use super::Evaluator;
+use super::fields::{Arg, Fields, Phrase, Written, bare};
+use super::item::{ItemId, declares};
+use super::scope::{ScopeId, What};
+use super::value::Value;
+use super::words::{self, Kind, Word, vocabulary};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::syntax::tree::{Block, Expr, Item, Name, Statement, StatementKind};
+
+/// Turns of loops a file may take.
+const TURNS: usize = 100_000;
+
+/// Copies of copies of copies.
+const COPIES: usize = 64;
+
+/// The statements of an item with those it copies.
+#[derive(Debug, Default)]
+pub(super) struct Merged<'t> {
+    /// What is evaluated, in order.
+    pub statements: Vec<&'t Statement>,
+    /// Edges that replace edges of a copied outline, by label.
+    pub edges: Vec<&'t Statement>,
+    /// Parameters that the copy sets.
+    pub settings: Vec<(&'t Name, &'t Expr)>,
+}
+
+/// The words of which a panel has only one, whatever they are.
+const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring"];
+
+/// The name by which a line of a copy replaces a line of the original.
+fn replaces(statement: &Statement) -> Option<&str> {
+    match &statement.kind {
+        StatementKind::Let { name, .. }
+        | StatementKind::Param { name, .. }
+        | StatementKind::Function { name, .. } => Some(&name.text),
+        StatementKind::Property { key, .. } => Some(&key.text),
+        StatementKind::Line { word, phrase, .. } => match word.text.as_str() {
+            "fit" => match phrase.first() {
+                Some(Item::Expr(expr)) => bare(expr).map(|name| name.text.as_str()),
+                _ => None,
+            },
+            shape if SHAPES.contains(&shape) => Some("outline"),
+            "unfold" => Some("unfold"),
+            "pair" => Some("pair"),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The first word of a labelled action: `shaping: dart on …`.
+fn labelled<'t>(phrase: &'t [Item]) -> Option<&'t Name> {
+    match phrase.first() {
+        Some(Item::Expr(expr)) => bare(expr),
+        _ => None,
+    }
+}
+
+impl<'t> Evaluator<'t> {
+    /// The text of an item with the text it copies (`panel back = front with { … }`).
+    pub(super) fn merged(&mut self, id: ItemId, depth: usize) -> Option<Merged<'t>> {
+        let item = self.item(id);
+        let (kind, phrase, span) = (item.kind, item.phrase.clone(), item.span);
+        let own: Vec<&'t Statement> =
+            phrase.block.map(|block| block.statements.iter().collect()).unwrap_or_default();
+        if kind == Kind::Wearer || !phrase.says("=") {
+            return Some(Merged { statements: own, ..Merged::default() });
+        }
+        let base = self.item_named(phrase.value("=")?, kind)?;
+        if depth >= COPIES || base == id {
+            self.tell(
+                Diagnostic::new("E0206", format!("`{}` copies itself", self.item(id).name))
+                    .at(span, "here"),
+            );
+            return None;
+        }
+        let mut merged = self.merged(base, depth + 1)?;
+        let mut added = Vec::new();
+        for statement in own {
+            if let StatementKind::Line { word, phrase, .. } = &statement.kind {
+                if word.text == "omit" {
+                    self.omit(&mut merged, phrase);
+                    continue;
+                }
+            }
+            if let StatementKind::Property { key, phrase, .. } = &statement.kind {
+                let parameter = merged.statements.iter().any(|old| {
+                    matches!(&old.kind, StatementKind::Param { name, .. } if name.text == key.text)
+                });
+                if parameter {
+                    if let [Item::Expr(value)] = phrase.as_slice() {
+                        merged.settings.push((key, value));
+                        continue;
+                    }
+                }
+                let outline_word = labelled(phrase)
+                    .is_some_and(|w| vocabulary(Kind::Outline).find(&w.text, false).is_some());
+                if kind == Kind::Panel && outline_word {
+                    merged.edges.push(statement);
+                    continue;
+                }
+            }
+            let name = replaces(statement);
+            let place =
+                merged.statements.iter().position(|old| name.is_some() && replaces(old) == name);
+            match place {
+                Some(place) => merged.statements[place] = statement,
+                None => added.push(statement),
+            }
+        }
+        merged.statements.extend(added);
+        Some(merged)
+    }
+
+    /// `omit a, b`: drops lines by name, label or word.
+    fn omit(&mut self, merged: &mut Merged<'t>, phrase: &'t [Item]) {
+        for item in phrase {
+            let Item::Expr(expr) = item else { continue };
+            let Some(name) = bare(expr) else {
+                self.tell(
+                    Diagnostic::new("E0201", "`omit` wants names of lines")
+                        .at(expr.span, "this is no name"),
+                );
+                continue;
+            };
+            let before = merged.statements.len();
+            merged.statements.retain(|old| {
+                let word = match &old.kind {
+                    StatementKind::Line { word, .. } => Some(word.text.as_str()),
+                    _ => None,
+                };
+                replaces(old) != Some(name.text.as_str()) && word != Some(name.text.as_str())
+            });
+            if merged.statements.len() == before {
+                let known: Vec<&str> =
+                    merged.statements.iter().filter_map(|old| replaces(old)).collect();
+                let label = self.meant(&name.text, known.into_iter());
+                self.tell(
+                    Diagnostic::new("E0204", format!("there is no `{}` to omit", name.text))
+                        .at(name.span, label),
+                );
+            }
+        }
+    }
+
+    /// Reads a block: declares its names in `scope`, unrolls loops and choices, matches its
+    /// lines against the table.
+    pub(super) fn read_block(
+        &mut self,
+        kind: Kind,
+        span: Span,
+        title: String,
+        merged: &Merged<'t>,
+        scope: ScopeId,
+    ) -> Fields<'t> {
+        let mut phrases = Vec::new();
+        self.settings.insert(scope, merged.settings.clone());
+        self.walk(kind, &merged.statements, scope, scope, &mut phrases);
+        self.once(&phrases);
+        Fields { kind, span, title, scope, phrases }
+    }
+
+    /// Reads a block that stands by itself, such as `drape { … }`.
+    pub fn read_plain(
+        &mut self,
+        kind: Kind,
+        block: &'t Block,
+        title: &str,
+        scope: ScopeId,
+    ) -> Fields<'t> {
+        let inner = self.new_scope(Some(scope));
+        let merged = Merged { statements: block.statements.iter().collect(), ..Merged::default() };
+        let span = Span { end: block.span.start.saturating_add(1), ..block.span };
+        self.read_block(kind, span, title.to_owned(), &merged, inner)
+    }
+
+    /// Properties stand once in a block.
+    fn once(&mut self, phrases: &[Phrase<'t>]) {
+        for (i, phrase) in phrases.iter().enumerate() {
+            if phrase.word.form != words::Form::Property {
+                continue;
+            }
+            let twin = phrases.iter().take(i).find(|other| {
+                other.word.form == words::Form::Property && other.key.text == phrase.key.text
+            });
+            if let Some(other) = twin {
+                self.tell(
+                    Diagnostic::new("E0209", format!("`{}` is said twice", phrase.key.text))
+                        .at(phrase.key.span, "here")
+                        .at(other.key.span, "and here")
+                        .help("keep one"),
+                );
+            }
+        }
+    }
+
+    /// `inner` is the scope of these statements; items and labels are known in `outer`, the
+    /// scope of the whole block.
+    fn walk(
+        &mut self,
+        kind: Kind,
+        statements: &[&'t Statement],
+        inner: ScopeId,
+        outer: ScopeId,
+        out: &mut Vec<Phrase<'t>>,
+    ) {
+        // First all names, so that they may be declared in any order.
+        let mut matched: Vec<Option<Phrase<'t>>> = Vec::with_capacity(statements.len());
+        for statement in statements {
+            let phrase = self.declare_statement(kind, statement, inner, outer);
+            matched.push(phrase);
+        }
+        for (statement, phrase) in statements.iter().zip(matched) {
+            match &statement.kind {
+                StatementKind::For { name, over, body } => {
+                    let turns = self.turns_of(over, inner);
+                    let lines: Vec<&'t Statement> = body.statements.iter().collect();
+                    for value in turns {
+                        self.turns += 1;
+                        if self.turns > TURNS {
+                            self.tell(
+                                Diagnostic::new(
+                                    "E0210",
+                                    format!("the loops of this file take more than {TURNS} turns"),
+                                )
+                                .at(over.span, "the last of them here"),
+                            );
+                            break;
+                        }
+                        let turn = self.new_scope(Some(inner));
+                        self.declare(turn, &name.text, name.span, turn, What::Given(value));
+                        self.walk(kind, &lines, turn, outer, out);
+                    }
+                }
+                StatementKind::If { condition, then, otherwise } => {
+                    let arg = Arg { expr: condition, scope: inner, of: "if" };
+                    let block = match self.condition(arg) {
+                        Some(true) => Some(then),
+                        Some(false) => otherwise.as_ref(),
+                        None => None,
+                    };
+                    if let Some(block) = block {
+                        let lines: Vec<&'t Statement> = block.statements.iter().collect();
+                        let branch = self.new_scope(Some(inner));
+                        self.walk(kind, &lines, branch, outer, out);
+                    }
+                }
+                _ => out.extend(phrase),
+            }
+        }
+    }
+
+    /// The value found for a fitted name of this block.
+    fn fitted(&self, block: ScopeId, name: &str) -> Option<What<'t>> {
+        let value = self.fits.get(&block)?.get(name)?;
+        Some(What::Given(Value::Quantity(*value)))
+    }
+
+    /// What was set for a parameter of this block: by a copy, or from outside.
+    fn setting(&mut self, name: &Name, block: ScopeId) -> Option<(&'t Expr, ScopeId)> {
+        let by_copy = self.settings.get(&block).and_then(|settings| {
+            settings.iter().find(|(key, _)| key.text == name.text).map(|(_, value)| *value)
+        });
+        if let Some(value) = by_copy {
+            let around = self.scopes.get(block.0).and_then(|scope| scope.parent).unwrap_or(block);
+            return Some((value, around));
+        }
+        if name.span.file != self.root {
+            return None;
+        }
+        let asked = self.options.iter().find(|asked| asked.name == name.text)?;
+        self.asked_for.insert(asked.name.clone());
+        Some((&asked.value, block))
+    }
+
+    /// The values a loop goes through.
+    fn turns_of(&mut self, over: &'t Expr, scope: ScopeId) -> Vec<Value> {
+        match self.eval(over, scope) {
+            Value::Poison => Vec::new(),
+            Value::List(values) => values,
+            Value::Range(from, to)
+                if from.dimension.is_number()
+                    && to.dimension.is_number()
+                    && from.value.fract() == 0.0
+                    && to.value.fract() == 0.0 =>
+            {
+                let count = (to.value - from.value + 1.0).clamp(0.0, (TURNS + 1) as f64) as usize;
+                (0..count).map(|i| Value::number(from.value + i as f64)).collect()
+            }
+            other => {
+                let found = other.describe(|id| self.item(id).kind);
+                self.tell(
+                    Diagnostic::new("E0304", format!("`for` cannot go through {found}"))
+                        .at(over.span, "a range of whole numbers or a list is wanted")
+                        .help("such as `1..6` or `[2cm, 5cm]`"),
+                );
+                Vec::new()
+            }
+        }
+    }
+
+    fn declare_statement(
+        &mut self,
+        kind: Kind,
+        statement: &'t Statement,
+        inner: ScopeId,
+        outer: ScopeId,
+    ) -> Option<Phrase<'t>> {
+        match &statement.kind {
+            StatementKind::Let { name, value } => {
+                let what = self.fitted(outer, &name.text).unwrap_or(What::Let(value));
+                self.declare(inner, &name.text, name.span, inner, what);
+                None
+            }
+            StatementKind::Param { name, kind: said, default, range } => {
+                let set = self.setting(name, outer);
+                let what = What::Param {
+                    kind: said.as_ref(),
+                    default: default.as_ref(),
+                    range: range.as_ref(),
+                    set,
+                };
+                let what = self.fitted(outer, &name.text).unwrap_or(what);
+                let id = self.declare(inner, &name.text, name.span, inner, what);
+                self.parameters.push(id);
+                None
+            }
+            StatementKind::Function { name, formals, kind: said, value } => {
+                let what = What::Function { formals, kind: said.as_ref(), value };
+                self.declare(inner, &name.text, name.span, inner, what);
+                None
+            }
+            StatementKind::Use(sources) => {
+                if kind != Kind::File {
+                    for source in sources {
+                        self.tell(
+                            Diagnostic::new("E0202", "`use` stands at the level of the file")
+                                .at(source.span, "not here")
+                                .help("move it to the top of the file"),
+                        );
+                    }
+                }
+                None
+            }
+            StatementKind::For { .. } | StatementKind::If { .. } => None,
+            StatementKind::Property { key, phrase, drawing, block } => {
+                let table = vocabulary(kind);
+                if let Some(word) = table.find(&key.text, true) {
+                    let written = Written {
+                        key,
+                        label: None,
+                        items: phrase,
+                        drawing,
+                        block: block.as_ref(),
+                        scope: inner,
+                    };
+                    return self.match_phrase(word, written);
+                }
+                let action = labelled(phrase).filter(|_| drawing.is_empty());
+                if let Some(name) = action {
+                    if let Some(word) = table.find(&name.text, false) {
+                        let items = phrase.get(1..).unwrap_or(&[]);
+                        let written = Written {
+                            key: name,
+                            label: Some(key),
+                            items,
+                            drawing: &[],
+                            block: block.as_ref(),
+                            scope: inner,
+                        };
+                        let matched = self.match_phrase(word, written);
+                        if kind != Kind::Outline {
+                            self.declare(outer, &key.text, key.span, inner, What::Label);
+                        }
+                        return matched;
+                    }
+                }
+                if let Some(word) = table.rows {
+                    let written = Written {
+                        key,
+                        label: None,
+                        items: phrase,
+                        drawing,
+                        block: block.as_ref(),
+                        scope: inner,
+                    };
+                    return self.match_phrase(word, written);
+                }
+                self.tell_unknown_property(kind, key, action);
+                None
+            }
+            StatementKind::Line { word: name, phrase, block } => {
+                let Some(word) = vocabulary(kind).find(&name.text, false) else {
+                    self.tell_unknown_line(kind, name);
+                    return None;
+                };
+                let written = Written {
+                    key: name,
+                    label: None,
+                    items: phrase,
+                    drawing: &[],
+                    block: block.as_ref(),
+                    scope: inner,
+                };
+                let matched = self.match_phrase(word, written)?;
+                if word.name == "fit" {
+                    if let Some(name) = matched.head.first().and_then(|expr| bare(expr)) {
+                        let what = self.fitted(outer, &name.text);
+                        let what = what.unwrap_or(What::Given(Value::Poison));
+                        self.declare(inner, &name.text, name.span, inner, what);
+                    }
+                }
+                match word.block {
+                    Some(item_kind) if declares(word.form) => {
+                        self.declare_item(outer, item_kind, matched)
+                    }
+                    _ => Some(matched),
+                }
+            }
+        }
+    }
+
+    fn tell_unknown_property(&mut self, kind: Kind, key: &Name, action: Option<&Name>) {
+        let table = vocabulary(kind);
+        if let Some(word) = table.find(&key.text, false) {
+            self.tell(
+                Diagnostic::new("E0207", format!("`{}` takes no colon", key.text))
+                    .at(key.span, "here")
+                    .help(word.usage()),
+            );
+            return;
+        }
+        if let Some(action) = action {
+            let near = crate::diagnostic::spelling::nearest(
+                &action.text,
+                table.words.iter().map(|word| word.name),
+            );
+            if kind == Kind::Outline || near.is_some() {
+                let label = self.meant(&action.text, table.words.iter().map(|word| word.name));
+                self.tell(
+                    Diagnostic::new(
+                        "E0203",
+                        format!("`{}` is not a word of {}", action.text, kind.title()),
+                    )
+                    .at(action.span, label)
+                    .help(word_list(table.words)),
+                );
+                return;
+            }
+        }
+        let label = self.meant(&key.text, table.words.iter().map(|word| word.name));
+        self.tell(
+            Diagnostic::new("E0203", format!("`{}` is not a word of {}", key.text, kind.title()))
+                .at(key.span, label)
+                .help(word_list(table.words)),
+        );
+    }
+
+    fn tell_unknown_line(&mut self, kind: Kind, name: &Name) {
+        let table = vocabulary(kind);
+        if let Some(word) = table.find(&name.text, true) {
+            self.tell(
+                Diagnostic::new("E0202", format!("`{}` is a property", name.text))
+                    .at(name.span, "a colon is missing after it")
+                    .help(word.usage()),
+            );
+            return;
+        }
+        let elsewhere: Vec<&str> = words::tables()
+            .filter(|other| other.kind != kind && other.find(&name.text, false).is_some())
+            .map(|other| other.kind.title())
+            .collect();
+        let near = crate::diagnostic::spelling::nearest(
+            &name.text,
+            table.words.iter().map(|word| word.name),
+        );
+        let told = match (near, elsewhere.is_empty()) {
+            (None, false) => {
+                Diagnostic::new("E0202", format!("{} has no `{}`", kind.title(), name.text))
+                    .at(name.span, format!("it belongs into {}", elsewhere.join(" or ")))
+            }
+            _ => {
+                let label = self.meant(&name.text, table.words.iter().map(|word| word.name));
+                Diagnostic::new(
+                    "E0203",
+                    format!("`{}` is not a word of {}", name.text, kind.title()),
+                )
+                .at(name.span, label)
+            }
+        };
+        self.tell(told.help(word_list(table.words)));
+    }
+}
+
+fn word_list(words: &[Word]) -> String {
+    if words.is_empty() {
+        return "it has no words".to_owned();
+    }
+    let mut names: Vec<&str> = words.iter().map(|word| word.name).collect();
+    names.dedup();
+    format!("its words are {}", names.join(", "))
+}

@@ -1,0 +1,230 @@
+//! Parameters and numbered items.
+
+use super::Evaluator;
+use super::fields::{Arg, bare};
+use super::item::{ItemId, State};
+use super::scope::{Binding, BindingId, ScopeId, What};
+use super::value::Value;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::syntax::tree::{Expr, ExprKind, Name};
+use crate::units::Quantity;
+use std::collections::BTreeMap;
+
+impl<'t> Evaluator<'t> {
+    /// Adds `name[number]` to the items of that name.
+    pub(super) fn declare_member(
+        &mut self,
+        into: ScopeId,
+        name: &'t Name,
+        number: i64,
+        item: ItemId,
+        scope: ScopeId,
+    ) {
+        let known = self.scopes.get(into.0).and_then(|scope| scope.names.get(&name.text)).copied();
+        if let Some(id) = known {
+            if let Some(Binding { what: What::Family(members), .. }) = self.bindings.get_mut(id.0) {
+                let before = members.insert(number, item);
+                if let Some(before) = before {
+                    let first = self.item(before).span;
+                    self.tell(
+                        Diagnostic::new(
+                            "E0205",
+                            format!("`{}[{number}]` is used for two things", name.text),
+                        )
+                        .at(first, "an item here")
+                        .at(name.span, "an item here"),
+                    );
+                }
+                return;
+            }
+        }
+        let members = BTreeMap::from([(number, item)]);
+        self.declare(into, &name.text, name.span, scope, What::Family(members));
+    }
+
+    /// `gore[2]`, `gore[1..6]`
+    pub(super) fn family_members(
+        &mut self,
+        name: &'t Name,
+        members: &BTreeMap<i64, ItemId>,
+        numbers: &'t [Expr],
+        scope: ScopeId,
+    ) -> Value {
+        let [number] = numbers else {
+            self.tell(
+                Diagnostic::new("E0306", format!("`{}[…]` wants one number", name.text))
+                    .at(name.span, "here"),
+            );
+            return Value::Poison;
+        };
+        let whole = |value: f64| (value.fract() == 0.0).then_some(value as i64);
+        let value = self.eval(number, scope);
+        let wanted = match &value {
+            Value::Poison => return Value::Poison,
+            Value::Quantity(q) if q.dimension.is_number() => whole(q.value).map(|n| (n, n)),
+            Value::Range(a, b) if a.dimension.is_number() => whole(a.value).zip(whole(b.value)),
+            _ => None,
+        };
+        let Some((first, last)) = wanted else {
+            return self.wrong(&value, "a whole number or a range of them", number.span);
+        };
+        let (low, high) = (
+            members.keys().next().copied().unwrap_or(0),
+            members.keys().next_back().copied().unwrap_or(0),
+        );
+        if first < low || last > high || first > last || !members.contains_key(&first) {
+            self.tell(
+                Diagnostic::new("E0204", format!("there is no `{}[{first}..{last}]`", name.text))
+                    .at(number.span, format!("{low} to {high} are there")),
+            );
+            return Value::Poison;
+        }
+        if first == last {
+            return members.get(&first).map_or(Value::Poison, |id| Value::Item(*id));
+        }
+        Value::Items(members.range(first..=last).map(|(_, id)| *id).collect())
+    }
+
+    /// The value of a parameter: what was set, or its default, if its range allows it.
+    pub(super) fn param_value(
+        &mut self,
+        id: BindingId,
+        kind: Option<&'t Name>,
+        default: Option<&'t Expr>,
+        range: Option<&'t Expr>,
+        set: Option<(&'t Expr, ScopeId)>,
+    ) -> Value {
+        let binding = &self.bindings[id.0];
+        let (name, span, scope) = (binding.name.clone(), binding.span, binding.scope);
+        let options = range.and_then(options);
+        let (expr, at) = match (set, default) {
+            (Some((expr, at)), _) => (expr, at),
+            (None, Some(expr)) => (expr, scope),
+            (None, None) => {
+                let wanted = kind.map_or("a value", |kind| kind.text.as_str());
+                self.tell(
+                    Diagnostic::new("E0208", format!("`{name}` must be given"))
+                        .at(span, format!("{wanted} is wanted"))
+                        .help(format!("`param {name} = …`, or set it from outside")),
+                );
+                return Value::Poison;
+            }
+        };
+        if let Some(options) = options {
+            return self.option(expr, &options, &name, range.map_or(span, |range| range.span));
+        }
+        let value = self.of_kind(Arg { expr, scope: at, of: "param" }, kind);
+        let Some(range) = range else { return value };
+        let allowed = self.eval(range, scope);
+        let (low, high) = match allowed {
+            Value::Range(low, high) => (low, high),
+            Value::List(values) => {
+                if value == Value::Poison || values.contains(&value) {
+                    return value;
+                }
+                self.tell(
+                    Diagnostic::new("E0303", format!("`{name}` is none of its options"))
+                        .at(expr.span, "set here")
+                        .at(range.span, "the options"),
+                );
+                return Value::Poison;
+            }
+            Value::Poison => return Value::Poison,
+            other => return self.wrong(&other, "a range or a list", range.span),
+        };
+        let Some(quantity) = self.as_quantity(value, expr.span) else { return Value::Poison };
+        if !quantity.fits(low.dimension) {
+            self.tell(
+                Diagnostic::new(
+                    "E0301",
+                    format!(
+                        "{} and {} cannot be compared",
+                        quantity.dimension.name(),
+                        low.dimension.name()
+                    ),
+                )
+                .at(expr.span, self.shown(quantity))
+                .at(range.span, format!("a range of {}", low.dimension.name())),
+            );
+            return Value::Poison;
+        }
+        // A hair of slack, so that a limit said in another unit still counts as reached.
+        let slack = 1e-9 * (low.value.abs() + high.value.abs());
+        if quantity.value < low.value - slack || quantity.value > high.value + slack {
+            let from_outside = set.is_some() && expr.span == Span::new(self.root, 0, 0);
+            let here = if from_outside { span } else { expr.span };
+            self.tell(
+                Diagnostic::new(
+                    "E0303",
+                    format!("`{name}` is {quantity}; {low} to {high} are allowed"),
+                )
+                .at(here, if from_outside { "set from outside" } else { "set here" })
+                .at(range.span, "range"),
+            );
+            return Value::Poison;
+        }
+        Value::Quantity(Quantity::new(quantity.value, low.dimension))
+    }
+
+    /// A parameter with options: `param kind = knife in [knife, box]`.
+    fn option(&mut self, expr: &'t Expr, options: &[&'t Name], name: &str, range: Span) -> Value {
+        match bare(expr) {
+            Some(word) if options.iter().any(|option| option.text == word.text) => {
+                Value::Word(word.text.clone())
+            }
+            found => {
+                let text = found.map_or("", |name| name.text.as_str());
+                let label = self.meant(text, options.iter().map(|option| option.text.as_str()));
+                self.tell(
+                    Diagnostic::new("E0303", format!("`{name}` is none of its options"))
+                        .at(expr.span, label)
+                        .at(range, "the options"),
+                );
+                Value::Poison
+            }
+        }
+    }
+
+    /// Works out every parameter, so that one out of its range is told although nobody needs
+    /// it, and tells what was to be set and is not there.
+    pub(super) fn check_parameters(&mut self) {
+        for id in self.parameters.clone() {
+            let binding = &self.bindings[id.0];
+            if binding.span.file == self.root && !matches!(binding.state, State::Running) {
+                let span = binding.span;
+                self.binding_value(id, span);
+            }
+        }
+        let mut names: Vec<String> = self
+            .parameters
+            .iter()
+            .map(|id| &self.bindings[id.0])
+            .filter(|binding| binding.span.file == self.root)
+            .map(|binding| binding.name.clone())
+            .collect();
+        names.sort();
+        names.dedup();
+        for asked in self.options {
+            if !self.asked_for.contains(&asked.name) {
+                let label = self.meant(&asked.name, names.iter().map(String::as_str));
+                let mut told = Diagnostic::new(
+                    "E0204",
+                    format!("this file has no parameter `{}`", asked.name),
+                )
+                .at(Span::new(self.root, 0, 0), label);
+                if !names.is_empty() {
+                    told = told.help(format!("it has {}", names.join(", ")));
+                }
+                self.tell(told);
+            }
+        }
+    }
+}
+
+/// Options that are bare words: `[knife, box]`.
+fn options(range: &Expr) -> Option<Vec<&Name>> {
+    match &range.kind {
+        ExprKind::List(parts) => parts.iter().map(bare).collect(),
+        _ => None,
+    }
+}

@@ -1,0 +1,246 @@
+//! Weaves: by name, by matrix, by draft.
+
+use super::chart::{self, Keys};
+use super::draft;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::evaluate::Evaluator;
+use crate::evaluate::fields::{Arg, Fields, Phrase, bare};
+use crate::evaluate::item::ItemId;
+use crate::syntax::tree::{BinaryOp, Expr, ExprKind, Item};
+use crate::textile::weave::{Weave, WeaveError};
+use crate::textile::yarn::Twist;
+
+/// The words that say what a weave is; a weave has one of them.
+const WAYS: [&str; 8] =
+    ["plain", "basket", "rib", "twill", "satin", "sateen", "matrix", "threading"];
+
+/// A weave.
+pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Weave> {
+    let fields = ev.open_item(id)?;
+    let ways: Vec<&Phrase<'_>> =
+        fields.phrases.iter().filter(|phrase| WAYS.contains(&phrase.word.name)).collect();
+    let way = match ways.as_slice() {
+        [] => {
+            ev.tell(
+                Diagnostic::new("E0208", format!("{} must say how it is woven", fields.title))
+                    .at(fields.span, "missing here")
+                    .help("`plain`, `basket 2`, `twill 2/2 Z`, `satin 8 move 3`, `matrix:` or `threading:`"),
+            );
+            return None;
+        }
+        [way] => *way,
+        [first, second, ..] => {
+            ev.tell(
+                Diagnostic::new("E0209", format!("{} is woven in two ways", fields.title))
+                    .at(second.span, "here")
+                    .at(first.span, "and here")
+                    .help("keep one"),
+            );
+            return None;
+        }
+    };
+    let made = made(ev, &fields, way)?;
+    let name = ev.item(id).name.clone();
+    let weave = match made {
+        Ok(weave) => weave.named(name),
+        Err(error) => {
+            tell(ev, &error, way.span);
+            return None;
+        }
+    };
+    if weave.floats().longest().is_none() {
+        ev.tell(
+            Diagnostic::new(
+                "W0603",
+                format!("`{}` falls apart: a thread is never bound", weave.name),
+            )
+            .at(way.span, "here")
+            .help("every end and every pick changes sides somewhere in the repeat"),
+        );
+    }
+    Some(weave)
+}
+
+fn made<'t>(
+    ev: &mut Evaluator<'t>,
+    fields: &Fields<'t>,
+    way: &Phrase<'t>,
+) -> Option<Result<Weave, WeaveError>> {
+    Some(match way.word.name {
+        "plain" => Ok(Weave::plain()),
+        "basket" => Weave::basket(threads(ev, way)?),
+        "rib" => {
+            let count = threads(ev, way)?;
+            if way.says("weft") { Weave::weft_rib(count) } else { Weave::warp_rib(count) }
+        }
+        "satin" | "sateen" => {
+            let count = threads(ev, way)?;
+            let step = small(ev, way.value("move")?, 0)?;
+            if way.word.name == "satin" {
+                Weave::satin(count, step)
+            } else {
+                Weave::sateen(count, step)
+            }
+        }
+        "twill" => {
+            let (runs, slant, step) = twill(ev, way)?;
+            Weave::twill(&runs, slant, step)
+        }
+        "matrix" => {
+            let keys = Keys::new(&[("1", true), ("#", true), ("0", false), (".", false)]);
+            let known = "`1` or `#`: the warp lies on top; `0` or `.`: the weft does";
+            let mut rows = chart::cells(ev, way, &keys, known)?;
+            if downwards(fields) {
+                rows.reverse();
+            }
+            Weave::matrix(rows)
+        }
+        _ => {
+            let mut rows = draft::drawdown(ev, fields, way)?;
+            if downwards(fields) {
+                rows.reverse();
+            }
+            Weave::matrix(rows)
+        }
+    })
+}
+
+fn downwards(fields: &Fields<'_>) -> bool {
+    fields.get("rows").and_then(|phrase| phrase.choice(0)) == Some("downwards")
+}
+
+/// A number of threads.
+fn threads<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<u32> {
+    small(ev, way.arg(0)?, 1)
+}
+
+fn small<'t>(ev: &mut Evaluator<'t>, arg: Arg<'t>, least: i64) -> Option<u32> {
+    let most = i64::try_from(Weave::LARGEST_REPEAT).unwrap_or(i64::MAX);
+    u32::try_from(ev.whole_number(arg, least, most)?).ok()
+}
+
+/// `2/2 Z`, `2/1/1/2 S move 1`
+fn twill<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<(Vec<u32>, Twist, u32)> {
+    let mut items = way.rest.iter();
+    let Some(Item::Expr(runs)) = items.next() else {
+        ev.tell(
+            Diagnostic::new("E0208", "`twill` must be given its runs")
+                .at(way.span, "missing here")
+                .help(USAGE),
+        );
+        return None;
+    };
+    let mut lengths = Vec::new();
+    let mut parts = Vec::new();
+    quotients(runs, &mut parts);
+    for expr in parts {
+        lengths.push(small(ev, Arg { expr, scope: way.scope, of: "twill" }, 1)?);
+    }
+    let mut slant = Twist::Z;
+    let mut step = 1;
+    while let Some(item) = items.next() {
+        let word = match item {
+            Item::Expr(expr) => bare(expr).map(|name| name.text.as_str()),
+            _ => None,
+        };
+        match word {
+            Some("Z") => slant = Twist::Z,
+            Some("S") => slant = Twist::S,
+            Some("move") => match items.next() {
+                Some(Item::Expr(expr)) => {
+                    step = small(ev, Arg { expr, scope: way.scope, of: "move" }, 1)?;
+                }
+                _ => {
+                    ev.tell(
+                        Diagnostic::new("E0208", "`move` must be given a number")
+                            .at(way.span, "missing here")
+                            .help(USAGE),
+                    );
+                    return None;
+                }
+            },
+            _ => {
+                if let Item::Expr(Expr { kind: ExprKind::Unread, .. }) = item {
+                    return None;
+                }
+                let span = span_of(item);
+                let text = ev.snippet(span).to_owned();
+                let label = ev.meant(&text, ["Z", "S", "move"].into_iter());
+                ev.tell(
+                    Diagnostic::new("E0203", format!("`{text}` is not a word of `twill`"))
+                        .at(span, label)
+                        .help(USAGE),
+                );
+                return None;
+            }
+        }
+    }
+    Some((lengths, slant, step))
+}
+
+const USAGE: &str = "twill UP/DOWN[/UP/DOWN …] [Z|S] [move NUMBER], such as `twill 2/2 Z`";
+
+/// The numbers of `a/b/c`, which the reader of values takes for divisions.
+fn quotients<'t>(expr: &'t Expr, out: &mut Vec<&'t Expr>) {
+    match &expr.kind {
+        ExprKind::Binary { op: BinaryOp::Over, left, right, .. } => {
+            quotients(left, out);
+            out.push(right);
+        }
+        _ => out.push(expr),
+    }
+}
+
+pub(super) fn span_of(item: &Item) -> Span {
+    match item {
+        Item::Comma(span) | Item::Arrow(span) | Item::Equals(span) => *span,
+        Item::Expr(expr) => expr.span,
+    }
+}
+
+fn tell(ev: &mut Evaluator<'_>, error: &WeaveError, at: Span) {
+    let told = match error {
+        WeaveError::NoSatin { repeat, step, moves } => {
+            let told = Diagnostic::new("E0604", error.to_string());
+            let shared = shared_factor(*repeat, *step);
+            let told = match shared {
+                _ if moves.is_empty() => told.at(at, format!("{repeat} has no satin at all")),
+                1 => told.at(at, "its binding points would touch"),
+                factor => told.at(
+                    at,
+                    format!(
+                        "{step} and {repeat} share the factor {factor}: only {} of the {repeat} \
+                         ends would be bound",
+                        repeat / factor
+                    ),
+                ),
+            };
+            let moves: Vec<String> = moves.iter().map(u32::to_string).collect();
+            match moves.as_slice() {
+                [] => told.help("satins have 5, 7, 8 or more ends"),
+                [only] => told.help(format!("the move of a satin of {repeat} is {only}")),
+                [most @ .., last] => told.help(format!(
+                    "the moves of a satin of {repeat} are {} and {last}",
+                    most.join(", ")
+                )),
+            }
+        }
+        WeaveError::Ragged { .. } => Diagnostic::new("E0601", error.to_string()).at(at, "here"),
+        WeaveError::Runs => Diagnostic::new("E0306", error.to_string()).at(at, "here").help(USAGE),
+        WeaveError::Standstill { .. } => {
+            Diagnostic::new("E0303", error.to_string()).at(at, "here").help("the usual move is 1")
+        }
+        WeaveError::Empty | WeaveError::TooLarge => {
+            Diagnostic::new("E0303", error.to_string()).at(at, "here")
+        }
+    };
+    ev.tell(told);
+}
+
+fn shared_factor(a: u32, b: u32) -> u32 {
+    let (mut a, mut b) = (a, b);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a.max(1)
+}

@@ -1,0 +1,104 @@
+//! What an expression can be worth.
+
+use super::item::ItemId;
+use super::panel::edge::{EdgeRef, Mark, Which};
+use super::words::Kind;
+use crate::textile::Colour;
+use crate::units::{Dimension, Quantity};
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Something wrong that has been told already; whatever is made of it stays silent.
+    Poison,
+    /// A number with its dimension.
+    Quantity(Quantity),
+    /// Yes or no.
+    Bool(bool),
+    /// A text.
+    Text(String),
+    /// A colour.
+    Colour(Colour),
+    /// One of a parameter's options.
+    Word(String),
+    /// A point or vector of two or three parts of one dimension.
+    Vector(Vector),
+    /// From, to, both included.
+    Range(Quantity, Quantity),
+    /// `[a, b]`
+    List(Vec<Value>),
+    /// A panel, fabric, wearer, …
+    Item(ItemId),
+    /// Several panels of one name, `gore[1..6]`.
+    Items(Vec<ItemId>),
+    /// A panel of which a half or a copy is meant: `sleeve.left`.
+    Half(ItemId, Which),
+    /// A measure or a place of a wearer: `lady.waist`.
+    Measure {
+        /// The wearer.
+        wearer: ItemId,
+        /// Its name as the body knows it: `waist`, `shoulder.left`.
+        name: String,
+    },
+    /// Edges one after the other.
+    Edges(Vec<EdgeRef>),
+    /// A place on a panel.
+    Mark(Mark),
+}
+
+/// Two or three numbers of one dimension.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vector {
+    /// Their dimension; a vector of zeros fits every one.
+    pub dimension: Dimension,
+    /// In SI units.
+    pub parts: Vec<f64>,
+}
+
+impl Vector {
+    /// Whether it can stand where `dimension` is wanted.
+    pub fn fits(&self, dimension: Dimension) -> bool {
+        self.dimension == dimension
+            || (self.dimension.is_number() && self.parts.iter().all(|&part| part == 0.0))
+    }
+}
+
+impl Value {
+    /// A pure number.
+    pub fn number(value: f64) -> Value {
+        Value::Quantity(Quantity::number(value))
+    }
+
+    /// A length in metres.
+    pub fn length(value: f64) -> Value {
+        Value::Quantity(Quantity::length(value))
+    }
+
+    /// A point of the drawing, m.
+    pub fn point(at: [f64; 2]) -> Value {
+        Value::Vector(Vector { dimension: Dimension::LENGTH, parts: at.to_vec() })
+    }
+
+    /// What it is, for messages: `a length`, `a panel`. Items are told by their kind.
+    pub fn describe(&self, kind_of: impl Fn(ItemId) -> Kind) -> String {
+        match self {
+            Value::Poison => "something wrong".to_owned(),
+            Value::Quantity(quantity) => quantity.dimension.name().to_owned(),
+            Value::Bool(_) => "a yes or no".to_owned(),
+            Value::Text(_) => "a text".to_owned(),
+            Value::Colour(_) => "a colour".to_owned(),
+            Value::Word(_) => "a word".to_owned(),
+            Value::Vector(vector) if vector.dimension == Dimension::LENGTH => "a point".to_owned(),
+            Value::Vector(_) => "a vector".to_owned(),
+            Value::Range(..) => "a range".to_owned(),
+            Value::List(_) => "a list".to_owned(),
+            Value::Item(id) => kind_of(*id).title().to_owned(),
+            Value::Items(_) => "several panels".to_owned(),
+            Value::Half(..) => "a panel".to_owned(),
+            Value::Measure { .. } => "a place on a body".to_owned(),
+            Value::Edges(edges) if edges.len() == 1 => "an edge".to_owned(),
+            Value::Edges(_) => "a row of edges".to_owned(),
+            Value::Mark(_) => "a place on a panel".to_owned(),
+        }
+    }
+}

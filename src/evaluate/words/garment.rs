@@ -1,0 +1,77 @@
+//! Words of a garment: sewing, placing, draping, pictures.
+
+use super::{Kind, Vocabulary, action, item, opening, property};
+
+/// Words for placing and holding that garments and scenes share are repeated in `scene`.
+pub(super) const TABLES: &[Vocabulary] = &[
+    Vocabulary {
+        kind: Kind::Garment,
+        words: &[
+            item("wearer", "NAME = BODY", Kind::Wearer, "who wears it; measures may be set"),
+            item(
+                "panel",
+                "NAME [ of FABRIC ] [ = PANEL ] [ with ]",
+                Kind::Panel,
+                "a piece of cloth; `panel b = a with { … }` copies the text of `a`, lines with the same name replace",
+            ),
+            action(
+                "seam",
+                "EDGE->… [ ease LENGTH | gathered RATIO | stretched SHARE ] [ open LENGTH | zip LENGTH ] [ from EDGE ] [ stitch plain|felled|french|overlock ] [ reversed ]",
+                "sews edges together; lengths that differ must be eased, gathered or stretched",
+            ),
+            action(
+                "place",
+                "PIECE ( before PLACE | behind PLACE | around PLACE | beside PLACE | at POINT ) [ level PLACE ] [ gap LENGTH ] [ turn ANGLES ]",
+                "where a piece begins; gap 3cm unless said otherwise",
+            ),
+            action("attach", "EDGE,… to PLACE", "holds edges to the body where they come to lie"),
+            action(
+                "pin",
+                "PIECE,… [ at PLACE ]",
+                "holds an edge or a corner at a place, or where it is",
+            ),
+            action("fix", "PIECE,…", "holds an edge or a corner where it is when the drape begins"),
+            action("check", "VALUE [ = VALUE ] [ within LENGTH ]", "an error unless it holds"),
+            opening("drape", "", Kind::Drape, "what the workshop does, in order"),
+            opening("picture", "[ NAME ]", Kind::Picture, "a picture of the dressed figure"),
+            property(
+                "grid",
+                "LENGTH",
+                "side of the cells of all panels, unless they say otherwise =8mm",
+            ),
+        ],
+        rows: None,
+    },
+    Vocabulary {
+        kind: Kind::Drape,
+        words: &[
+            action(
+                "sew",
+                "until CONDITION",
+                "draws the seams together without gravity: `sew until gap < 1mm`",
+            ),
+            action(
+                "settle",
+                "until CONDITION [ within TIME ]",
+                "lets it come to rest: `settle until speed < 2mm/s`; within 20s",
+            ),
+            action("run", "TIME [ at RATE ]", "lets time pass: `run 2s at 60fps`"),
+        ],
+        rows: None,
+    },
+    Vocabulary {
+        kind: Kind::Picture,
+        words: &[
+            property("of", "NAME", "what is shown; only for pictures outside a garment"),
+            property(
+                "views",
+                "front|side|back|three_quarter|top,…",
+                "from where, side by side =front",
+            ),
+            property("size", "COUNT x COUNT", "pixels across and down =900 x 1200"),
+            property("light", "studio|daylight|overcast", "the light =studio"),
+            property("show", "worn|on_line|flat", "how a sari is shown =on_line"),
+        ],
+        rows: None,
+    },
+];

@@ -1,0 +1,83 @@
+//! Words of a panel and of its outline.
+
+use super::{Kind, Vocabulary, action, opening, property};
+
+pub(super) const TABLES: &[Vocabulary] = &[
+    Vocabulary {
+        kind: Kind::Panel,
+        words: &[
+            opening(
+                "outline",
+                "from POINT",
+                Kind::Outline,
+                "the edges, either way round, as seen from outside",
+            ),
+            action(
+                "rectangle",
+                "LENGTH x LENGTH",
+                "width x height; x = 0 in the middle, edges bottom, end, top, start",
+            ),
+            action("circle", "radius LENGTH", "a disc about (0, 0); its edge is `rim`"),
+            action(
+                "ring",
+                "inner LENGTH outer LENGTH [ sweep ANGLE ]",
+                "a ring about (0, 0): edges inner and outer, and start and end where sweep is less than 360deg",
+            ),
+            action(
+                "dart",
+                "on EDGE at POSITION [ from EDGE ] width LENGTH ( depth LENGTH | to POINT )",
+                "a wedge with equal legs, cut out and sewn",
+            ),
+            opening(
+                "hole",
+                "[ from POINT | circle ] [ at POINT ] [ radius LENGTH ]",
+                Kind::Outline,
+                "a closed inner outline: `hole from P { edges }` or `hole circle at P radius L`",
+            ),
+            action("notch", "on EDGE at POSITION [ from EDGE ]", "a match mark"),
+            action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
+            action(
+                "pair",
+                "as NAME,…",
+                "cuts the piece twice; the first name is the piece as drawn",
+            ),
+            action("rotate", "by ANGLE [ about POINT ]", "turns the drawing"),
+            action(
+                "fit",
+                "NAME in RANGE until VALUE = VALUE",
+                "finds the value of a name that makes two lengths equal",
+            ),
+            property("fabric", "FABRIC", "its fabric"),
+            property("grain", "ANGLE", "turns the cloth under the drawing =0deg: warp along +y"),
+            property("grid", "LENGTH", "side of the grid cells"),
+            property(
+                "layer",
+                "LAYER",
+                "order of contact, greater lies further out =0; `inside` for linings",
+            ),
+        ],
+        rows: None,
+    },
+    Vocabulary {
+        kind: Kind::Outline,
+        words: &[
+            action("line", "( to END | by VECTOR )", "a straight edge"),
+            action(
+                "curve",
+                "( to END | by VECTOR ) [ leaving DIRECTION ] [ arriving DIRECTION ] [ pull SHARE,… ] [ through POINT,… | controls POINT,… | bulge LENGTH | hollow LENGTH | measuring LENGTH ] [ inward ]",
+                "a curved edge, by directions, by points, or as a bow",
+            ),
+            action(
+                "arc",
+                "( to END | by ANGLE ) [ around POINT ] [ bulge LENGTH | hollow LENGTH | radius LENGTH ] [ inward ]",
+                "a part of a circle: `arc around P by A`, `arc to P bulge L`, `arc to P radius L`",
+            ),
+            action(
+                "trace",
+                "EDGE [ mirrored ] [ reversed ]",
+                "repeats edges of another panel from here, names kept",
+            ),
+        ],
+        rows: None,
+    },
+];

@@ -1,0 +1,39 @@
+//! Texts that are at hand already.
+
+use super::{Opened, World};
+use crate::diagnostic::{FileId, Texts};
+use std::collections::BTreeMap;
+
+/// A project in memory.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    texts: BTreeMap<String, String>,
+    opened: Opened,
+}
+
+impl Memory {
+    /// A project of these paths and texts.
+    pub fn new<P: Into<String>, T: Into<String>>(files: impl IntoIterator<Item = (P, T)>) -> Self {
+        let texts = files.into_iter().map(|(path, text)| (path.into(), text.into())).collect();
+        Memory { texts, opened: Opened::default() }
+    }
+}
+
+impl Texts for Memory {
+    fn path(&self, file: FileId) -> &str {
+        self.opened.path(file)
+    }
+
+    fn text(&self, file: FileId) -> &str {
+        self.opened.text(file)
+    }
+}
+
+impl World for Memory {
+    fn open(&mut self, path: &str) -> Result<FileId, String> {
+        let texts = &self.texts;
+        self.opened.open(path, |path| {
+            texts.get(path).cloned().ok_or_else(|| format!("there is no `{path}`"))
+        })
+    }
+}

@@ -1,0 +1,189 @@
+//! The program as a user calls it: exit codes, messages, whole files or none.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn darzi(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_darzi"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("XDG_CACHE_HOME", folder.join("cache"))
+        .output()
+        .expect("the program starts")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("the program ends by itself")
+}
+
+fn told(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn example(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(name);
+    path.to_string_lossy().into_owned()
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn a_new_file_is_sound_and_is_not_written_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = darzi(folder.path(), &["new", "picnic"]);
+    assert_eq!(code(&made), 0, "{}", told(&made));
+    let checked = darzi(folder.path(), &["check", "picnic.garment"]);
+    assert_eq!(code(&checked), 0, "{}", told(&checked));
+    assert!(
+        checked.stdout.is_empty() && checked.stderr.is_empty(),
+        "a sound file is met with silence"
+    );
+    let again = darzi(folder.path(), &["new", "picnic"]);
+    assert_eq!(code(&again), 2);
+    assert!(told(&again).contains("there already"));
+    assert_eq!(code(&darzi(folder.path(), &["new", "../picnic"])), 2);
+}
+
+#[test]
+fn wrong_calls_end_with_2_and_write_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let skirt = example("a_line_skirt.garment");
+    for call in [
+        vec!["render", &skirt],
+        vec!["render", &skirt, "-o", "x.jpg"],
+        vec!["render", &skirt, "-o", "nowhere/x.png"],
+        vec!["render", &skirt, "-o", "x.png", "--size", "900"],
+        vec!["render", &skirt, "-o", "x.png", "--view", "below"],
+        vec!["drape", &skirt, "-o", "x.fbx"],
+        vec!["drape", &skirt, "-o", "x.glb", "--resolution", "5"],
+        vec!["check", &skirt, "--name", "trousers", "--nonsense"],
+        vec!["compile", &skirt, "-o", "out", "--name", "trousers"],
+        vec!["check", "README.md"],
+    ] {
+        let output = darzi(folder.path(), &call);
+        assert_eq!(code(&output), 2, "{call:?}: {}", told(&output));
+        assert!(!told(&output).is_empty());
+    }
+    assert_eq!(files(folder.path()), Vec::<PathBuf>::new());
+}
+
+#[test]
+fn a_wrong_file_ends_with_1_and_every_mistake_has_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "\
+scene wrong {
+    cloth c of cottn { size: 1m x 1m }
+    solid ball { shape: sphere radius 25 }
+    drape { settle until speed < 2mm }
+}
+";
+    std::fs::write(folder.path().join("wrong.garment"), text).unwrap();
+    let human = darzi(folder.path(), &["render", "wrong.garment", "-o", "x.png"]);
+    assert_eq!(code(&human), 1, "{}", told(&human));
+    for place in ["wrong.garment:2:", "wrong.garment:3:", "wrong.garment:4:"] {
+        assert!(told(&human).contains(place), "{place} is missing in\n{}", told(&human));
+    }
+    assert!(told(&human).contains("`cotton`"), "the likely word is named");
+    let json = darzi(folder.path(), &["check", "wrong.garment", "--message-format", "json"]);
+    assert_eq!(code(&json), 1);
+    let messages: Vec<serde_json::Value> = told(&json)
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("a line of JSON"))
+        .collect();
+    assert!(messages.len() >= 3);
+    for message in messages {
+        assert!(message["code"].as_str().is_some_and(|c| c.starts_with('E')));
+        assert!(message["labels"][0]["line"].as_u64().is_some_and(|n| n >= 1));
+    }
+    let absent = darzi(folder.path(), &["check", "absent.garment"]);
+    assert_eq!(code(&absent), 1);
+    assert!(told(&absent).contains("E0903"));
+    assert_eq!(files(folder.path()), [folder.path().join("wrong.garment")]);
+}
+
+#[test]
+fn the_same_source_compiles_to_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let skirt = example("a_line_skirt.garment");
+    for (out, threads) in [("a", "1"), ("b", "2")] {
+        let output = Command::new(env!("CARGO_BIN_EXE_darzi"))
+            .args(["compile", &skirt, "-o", out])
+            .current_dir(folder.path())
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        assert_eq!(code(&output), 0, "{}", told(&output));
+    }
+    for file in ["mesh.json", "atlas.png"] {
+        let [a, b] =
+            ["a", "b"].map(|out| std::fs::read(folder.path().join(out).join(file)).unwrap());
+        assert!(!a.is_empty() && a == b, "{file} differs from run to run");
+    }
+}
+
+#[test]
+fn a_drape_is_kept_told_and_the_same_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let cloth = example("handkerchief.garment");
+    let call = |out: &str, threads: &str, extra: &[&str]| {
+        let mut call =
+            vec!["drape", &cloth, "-o", out, "--resolution", "25mm", "--threads", threads];
+        call.extend(extra);
+        let output = darzi(folder.path(), &call);
+        assert_eq!(code(&output), 0, "{}", told(&output));
+        assert!(output.stdout.is_empty() && output.stderr.is_empty(), "quiet in a pipe");
+        std::fs::read(folder.path().join(out)).unwrap()
+    };
+    let one = call("one.glb", "1", &["--no-cache", "--stats", "one.json"]);
+    assert!(!folder.path().join("cache").exists(), "--no-cache keeps nothing");
+    let two = call("two.glb", "2", &[]);
+    let known = call("known.glb", "2", &[]);
+    assert!(one == two && two == known);
+    let stats: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path().join("one.json")).unwrap()).unwrap();
+    for figure in [
+        "particles",
+        "triangles",
+        "seam_pairs",
+        "threads",
+        "seconds",
+        "steps",
+        "largest_warp_strain",
+        "largest_weft_strain",
+        "mean_warp_strain",
+        "mean_weft_strain",
+        "largest_seam_gap",
+        "deepest_penetration",
+        "self_intersections",
+        "largest_speed",
+        "verdict",
+    ] {
+        assert!(!stats[figure].is_null(), "{figure} is missing");
+    }
+    assert_eq!(stats["threads"], 1);
+    assert_eq!(stats["verdict"], "settled");
+}
+
+#[test]
+fn a_condition_that_is_not_met_ends_with_3_and_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "\
+scene hasty {
+    cloth c of cotton { size: 20cm x 20cm  grid: 10 x 10  at: (0, 1m, 0)  facing: up }
+    solid ball { shape: sphere radius 5cm  at: (0, 0, 0) }
+    drape { settle until speed < 1mm/s within 0.2s }
+}
+";
+    std::fs::write(folder.path().join("hasty.garment"), text).unwrap();
+    let output =
+        darzi(folder.path(), &["drape", "hasty.garment", "-o", "x.obj", "--stats", "s.json"]);
+    assert_eq!(code(&output), 3, "{}", told(&output));
+    assert!(told(&output).contains("the drape did not reach"));
+    let stats = std::fs::read_to_string(folder.path().join("s.json")).unwrap();
+    assert!(stats.contains("\"reason\": \""));
+}
