@@ -114,7 +114,9 @@ fn refuse(
 /// Girth of the form at a station, m.
 fn felt(form: &Form, station: &Station) -> f64 {
     let value = |p: Point3<f64>| match station.zone {
-        Zone::Trunk | Zone::Leg => form.without_arms(p),
+        Zone::Trunk => form.without_arms(p),
+        // The other leg lies beyond the middle plane.
+        Zone::Leg => form.without_arms(p).max(-p.x),
         Zone::Arm => form.left_arm(p),
     };
     let u = any_across(station.axis);

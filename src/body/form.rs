@@ -539,7 +539,7 @@ fn leg(
     let wider = rows
         .iter()
         .filter(|row| row.t <= crotch)
-        .map(|row| row.u[1] + 0.011 * size - row.centre[0])
+        .map(|row| row.u[1] + 0.017 * size - row.centre[0])
         .fold(0.0, f64::max);
     for row in &mut rows {
         row.centre[0] += wider;
@@ -588,7 +588,7 @@ fn arm(
     chest_level: f64,
     size: f64,
 ) -> (Loft, [f64; 3], Loft) {
-    let joint = acromion + Vector3::new(-0.016, -0.050, 0.0) * size;
+    let joint = acromion + Vector3::new(-0.016, -0.045, 0.0) * size;
     let length = measures.get("arm_length") - 0.02 * size;
     let upper = scale("upper_arm");
     // The arm hangs far enough out to leave the widest part of the chest free.

@@ -182,7 +182,8 @@ fn add_armholes(found: &mut BTreeMap<String, Landmark>, form: &Form, surface: &S
         }
         y -= 0.002 * form.size;
     }
-    let top = tip + Vector3::y() * (skin(&value, tip, Vector3::y(), 0.005 * form.size));
+    let inner = tip - Vector3::y() * (0.03 * form.size);
+    let top = inner + Vector3::y() * skin(&value, inner, Vector3::y(), 0.005 * form.size);
     let below = hollow + form.arm_direction() * (0.008 * form.size);
     let chord = top - below;
     let out = Vector3::new(chord.y, -chord.x, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);

@@ -53,7 +53,10 @@ impl Project {
     /// # Errors
     /// [`Stop::Input`] if anything is.
     pub(super) fn garments(&mut self, input: &Input) -> Result<Vec<Garment>, Stop> {
-        let options = evaluate::Options { set: input.set.clone() };
+        let options = evaluate::Options {
+            set: input.set.clone(),
+            names: input.name.iter().cloned().collect(),
+        };
         let (garments, diagnostics) = evaluate::evaluate(&mut self.world, self.root, &options);
         self.tell(&diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(garments) }

@@ -35,8 +35,6 @@ pub struct Cloth {
     pub cell: f64,
     /// Stiffness of bending off the diagonal, in the order of the matrix's blocks, N/m.
     pub fold_off: Vec<f64>,
-    /// Stiffness of bending on the diagonal, N/m.
-    pub fold_diagonal: Vec<f64>,
     /// Seconds of damping per stiffness: the viscous share of every elastic force is this times
     /// its rate (Rayleigh's second coefficient).
     pub damping: f64,
@@ -175,15 +173,12 @@ impl Cloth {
             }
         }
         self.fold_off = vec![0.0; pattern.blocks()];
-        self.fold_diagonal = vec![0.0; pattern.rows()];
         for fold in &self.folds {
             for (i, wi) in fold.terms() {
                 for (j, wj) in fold.terms() {
                     let value = fold.stiffness * wi * wj;
-                    match pattern.slot(i, j) {
-                        Some(slot) => self.fold_off[slot as usize] += value,
-                        None if i == j => self.fold_diagonal[i as usize] += value,
-                        None => {}
+                    if let Some(slot) = pattern.slot(i, j) {
+                        self.fold_off[slot as usize] += value;
                     }
                 }
             }

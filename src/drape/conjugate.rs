@@ -69,14 +69,15 @@ fn axpy(a: f64, x: &[Lane], y: &mut [Lane]) {
 const NOISE: f64 = 1e-6;
 
 /// Solves `(A + E) x = b` for the knots that are not `held`; those keep x = 0. Begins from the
-/// given x; the better that is, the more exact the answer, since the aim is a share of the first
-/// residual. Gives the number of iterations.
+/// given x, moved along `way` as far as is best; the better that is, the more exact the answer,
+/// since the aim is a share of the first residual. Gives the number of iterations.
 pub fn solve<E: Extra>(
     matrix: &Matrix,
     extra: &E,
     factor: &mut Factor,
     held: &[bool],
     b: &[Lane],
+    way: &[Lane],
     x: &mut [Lane],
     space: &mut Space,
     aim: Aim,
@@ -103,6 +104,17 @@ pub fn solve<E: Extra>(
     extra.multiply(x, q);
     mask(q);
     axpy(-1.0, q, r);
+    p.copy_from_slice(way);
+    mask(p);
+    matrix.multiply(p, q);
+    extra.multiply(p, q);
+    mask(q);
+    let stiff = dot(p, q);
+    if stiff > 0.0 {
+        let far = (dot(p, r) / stiff).clamp(0.0, 1.0);
+        axpy(far, p, x);
+        axpy(-far, q, r);
+    }
     factor.solve(r, z);
     mask(z);
     p.copy_from_slice(z);

@@ -12,7 +12,8 @@ pub type Places = [Vector3<f64>];
 /// Elastic energy, J: tension, shear and bending of the whole cloth.
 pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     let at = |k: u32| x[k as usize];
-    let springs: f64 = cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
+    let springs: f64 =
+        cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
     let cells: f64 = cloth.cells.iter().map(|c| c.energy(&c.corners.map(at))).sum();
     let triangles: f64 = cloth.triangles.iter().map(|t| t.energy(&t.corners.map(at))).sum();
     let folds: f64 = cloth
@@ -26,7 +27,8 @@ pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     springs + cells + triangles + folds
 }
 
-/// Sets `matrix` to the elastic stiffness times `scale` and `force` to the elastic forces.
+/// Sets the blocks off the diagonal of `matrix` to the elastic stiffness times `scale`, and `force`
+/// to the elastic forces.
 pub fn assemble(
     cloth: &Cloth,
     x: &Places,
@@ -50,8 +52,6 @@ pub fn assemble(
         let Some([ab, ba]) = s.slots else { continue };
         force[a] += f;
         force[b] -= f;
-        add(&mut matrix.diagonal[a], k);
-        add(&mut matrix.diagonal[b], k);
         let k = -k;
         add(&mut matrix.off[ab as usize], &k);
         add(&mut matrix.off[ba as usize], &k);
@@ -74,7 +74,6 @@ pub fn assemble(
         for (i, (di, si)) in ENDS.into_iter().enumerate() {
             let knot = c.corners[i] as usize;
             force[knot] += load.force[di] * si;
-            add(&mut matrix.diagonal[knot], &load.stiffness[di]);
             for (j, (dj, sj)) in ENDS.into_iter().enumerate() {
                 if i == j {
                     continue;
@@ -84,7 +83,7 @@ pub fn assemble(
                     (1, 0) => &crossed,
                     (d, _) => &load.stiffness[d],
                 };
-                place(matrix, slots.next(), knot, c.corners[j], &(k * (si * sj)));
+                place(matrix, slots.next(), &(k * (si * sj)));
             }
         }
     }
@@ -105,45 +104,36 @@ pub fn assemble(
         for i in 0..3 {
             let knot = t.corners[i] as usize;
             force[knot] += f[i];
-            add(&mut matrix.diagonal[knot], &k[i]);
             for j in (0..3).filter(|&j| j != i) {
                 let block = &k[2 + i + j];
                 let block = if i < j { *block } else { block.transpose() };
-                place(matrix, slots.next(), knot, t.corners[j], &block);
+                place(matrix, slots.next(), &block);
             }
         }
     }
 }
 
-/// Adds a block off the diagonal; one between corners that a weld has made one knot belongs to
-/// the diagonal.
-fn place(matrix: &mut Matrix, slot: Option<&Option<u32>>, i: usize, j: u32, k: &Matrix3<f64>) {
-    match slot {
-        Some(&Some(slot)) => add(&mut matrix.off[slot as usize], k),
-        _ if i == j as usize => add(&mut matrix.diagonal[i], k),
-        _ => {}
+/// Adds a block off the diagonal. There is none between corners that a weld has made one knot.
+fn place(matrix: &mut Matrix, slot: Option<&Option<u32>>, k: &Matrix3<f64>) {
+    if let Some(&Some(slot)) = slot {
+        add(&mut matrix.off[slot as usize], k);
     }
 }
 
 /// Bending: its stiffness never changes, its force is the stiffness times the places.
-#[allow(clippy::cast_possible_truncation)]
 fn bend(cloth: &Cloth, x: &Places, scale: f64, matrix: &mut Matrix, force: &mut [Vector3<f64>]) {
-    let (pattern, off, diagonal) = (&matrix.pattern, &mut matrix.off, &mut matrix.diagonal);
-    off.par_iter_mut().zip(&cloth.fold_off).with_min_len(ROWS).for_each(|(block, s)| {
+    let pattern = &matrix.pattern;
+    matrix.off.par_iter_mut().zip(&cloth.fold_off).with_min_len(ROWS).for_each(|(block, s)| {
         *block = [[0.0; 4]; 3];
         add_scalar(block, s * scale);
     });
-    diagonal.par_iter_mut().zip(force.par_iter_mut()).enumerate().with_min_len(ROWS).for_each(
-        |(i, (block, force))| {
-            *block = [[0.0; 4]; 3];
-            add_scalar(block, cloth.fold_diagonal[i] * scale);
-            // Differences to the knot itself, so that the far place of the cloth does not count.
-            let range = pattern.row(i);
-            let mut sum = Vector3::zeros();
-            for (s, &j) in cloth.fold_off[range.clone()].iter().zip(&pattern.columns()[range]) {
-                sum += (x[j as usize] - x[i]) * *s;
-            }
-            *force = -sum;
-        },
-    );
+    force.par_iter_mut().enumerate().with_min_len(ROWS).for_each(|(i, force)| {
+        // Differences to the knot itself, so that the far place of the cloth does not count.
+        let range = pattern.row(i);
+        let mut sum = Vector3::zeros();
+        for (s, &j) in cloth.fold_off[range.clone()].iter().zip(&pattern.columns()[range]) {
+            sum += (x[j as usize] - x[i]) * *s;
+        }
+        *force = -sum;
+    });
 }

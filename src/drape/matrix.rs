@@ -2,6 +2,12 @@
 //!
 //! Every row stores all its neighbours (both halves of the symmetric matrix), so that a product
 //! is a map over rows and comes out the same for any number of threads.
+//!
+//! Cloth is a million times stiffer against stretching than its inertia against being moved as a
+//! whole, more than single precision can hold in one number. Forces inside the cloth do not
+//! change when all of it moves, so what a block off the diagonal does to a knot depends on the
+//! difference of two movements only; products are taken in that form, and inertia, contact and
+//! holds are kept apart as each knot's own block.
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -74,7 +80,9 @@ impl Pattern {
 pub struct Matrix {
     /// Where the blocks stand.
     pub pattern: Pattern,
-    /// Blocks of the diagonal.
+    /// What acts on each knot alone: inertia, contact, holds.
+    pub own: Vec<Block>,
+    /// Blocks of the diagonal: own less all others of the row. Set by [`Matrix::close`].
     pub diagonal: Vec<Block>,
     /// Other blocks, in the order of the pattern.
     pub off: Vec<Block>,
@@ -84,16 +92,42 @@ impl Matrix {
     /// A zero matrix of the given pattern.
     pub fn new(pattern: Pattern) -> Self {
         let (n, m) = (pattern.rows(), pattern.blocks());
-        Matrix { pattern, diagonal: vec![[[0.0; 4]; 3]; n], off: vec![[[0.0; 4]; 3]; m] }
+        let zero = [[0.0; 4]; 3];
+        Matrix { pattern, own: vec![zero; n], diagonal: vec![zero; n], off: vec![zero; m] }
+    }
+
+    /// Sets the diagonal from the other blocks.
+    pub fn close(&mut self) {
+        let (pattern, off, own) = (&self.pattern, &self.off, &self.own);
+        self.diagonal.par_iter_mut().enumerate().with_min_len(ROWS).for_each(|(i, diagonal)| {
+            let mut sum = own[i];
+            for block in &off[pattern.row(i)] {
+                for (s, b) in sum.iter_mut().zip(block) {
+                    for l in 0..4 {
+                        s[l] -= b[l];
+                    }
+                }
+            }
+            // Rounding may leave the two halves of the block unequal.
+            for r in 0..3 {
+                for c in 0..r {
+                    let mean = 0.5 * (sum[c][r] + sum[r][c]);
+                    (sum[c][r], sum[r][c]) = (mean, mean);
+                }
+            }
+            *diagonal = sum;
+        });
     }
 
     /// `y = A x`.
     pub fn multiply(&self, x: &[Lane], y: &mut [Lane]) {
         let row = |i: usize, y: &mut Lane| {
-            let mut sum = apply(&self.diagonal[i], &x[i]);
+            let here = x[i];
+            let mut sum = apply(&self.own[i], &here);
             let range = self.pattern.row(i);
             for (block, &j) in self.off[range.clone()].iter().zip(&self.pattern.column[range]) {
                 let v = &x[j as usize];
+                let v = [v[0] - here[0], v[1] - here[1], v[2] - here[2]];
                 for l in 0..4 {
                     sum[l] += block[0][l] * v[0] + block[1][l] * v[1] + block[2][l] * v[2];
                 }
@@ -168,12 +202,14 @@ mod tests {
         assert_eq!(pattern.blocks(), 4);
         assert_eq!(pattern.slot(0, 2), None);
         let mut a = Matrix::new(pattern);
-        for d in &mut a.diagonal {
-            add_scalar(d, 2.0);
+        for (i, own) in a.own.iter_mut().enumerate() {
+            add_scalar(own, if i == 1 { 0.0 } else { 1.0 });
         }
         for b in &mut a.off {
             add_scalar(b, -1.0);
         }
+        a.close();
+        assert!(a.diagonal.iter().all(|d| d[0][0] == 2.0 && d[0][1] == 0.0));
         let x = [[1.0, 0.0, 2.0, 0.0], [3.0, 1.0, 0.0, 0.0], [5.0, 0.0, 0.0, 0.0]];
         let mut y = [[0.0; 4]; 3];
         a.multiply(&x, &mut y);

@@ -193,12 +193,20 @@ impl Contact {
             .collect()
     }
 
-    /// Bends an expected movement so that knots in contact come to lie on the skin.
-    pub fn guide(&self, cloth: &Cloth, x: &[Vector3<f64>], dx: &mut [Vector3<f64>]) {
+    /// Bends an expected movement so that knots in contact come to lie on the skin, and takes
+    /// from a second one what they will not do.
+    pub fn guide(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        dx: &mut [Vector3<f64>],
+        fall: &mut [Vector3<f64>],
+    ) {
         for (i, touch) in self.touches.iter().enumerate().filter(|(_, t)| t.active > 0.0) {
             let n = touch.normal;
             let gap = touch.distance + (x[i] + dx[i] - touch.at).dot(&n) - Self::seat(cloth, i);
             dx[i] -= n * (gap + touch.load / touch.active);
+            fall[i] = Vector3::zeros();
         }
     }
 

@@ -149,7 +149,8 @@ impl<'a> Workshop<'a> {
 
     /// Energy of deformation and height (in the given gravity) and of movement, J.
     pub fn energy(&self, gravity: f64) -> [f64; 2] {
-        let height: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
+        let height: f64 =
+            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
         [elastic::energy(&self.cloth, &self.x) + height, self.movement()]
     }
 
@@ -182,17 +183,23 @@ impl<'a> Workshop<'a> {
         let base = self.assemble(&start, &speeds, manner);
         let mut ahead: Vec<Vector3<f64>> =
             speeds.iter().map(|v| v * dt + down * (dt * dt)).collect();
-        // Friction is judged by the slide of the last step: gravity's own share is not slid yet.
+        // Friction is judged by the last step's movement: gravity's own share is not slid yet.
         let mut slide: Vec<Vector3<f64>> = speeds.iter().map(|v| v * dt).collect();
         let mut iterations = 0;
         for pass in 0..PASSES {
             let pushes = self.contact.push(&self.cloth, &start, &ahead, &slide, manner.grip);
             let b = self.load(&base, &pushes);
-            self.contact.guide(&self.cloth, &start, &mut ahead);
-            for (dx, ahead) in self.dx.iter_mut().zip(&ahead) {
-                *dx = lane(ahead);
+            // Solved from the last step's movement, and the fall as far as nothing holds it up.
+            let fallen = if pass == 0 { down * (dt * dt) } else { Vector3::zeros() };
+            let mut fall = vec![fallen; start.len()];
+            let mut guess = slide.clone();
+            self.contact.guide(&self.cloth, &start, &mut guess, &mut fall);
+            for (dx, guess) in self.dx.iter_mut().zip(&guess) {
+                *dx = lane(guess);
             }
+            let fall: Vec<Lane> = fall.iter().map(lane).collect();
             if pass == 0 {
+                self.matrix.close();
                 self.factor.refresh(&self.matrix);
             }
             iterations += conjugate::solve(
@@ -201,6 +208,7 @@ impl<'a> Workshop<'a> {
                 &mut self.factor,
                 &self.holds.held,
                 &b,
+                &fall,
                 &mut self.dx,
                 &mut self.space,
                 manner.aim,
@@ -255,7 +263,7 @@ impl<'a> Workshop<'a> {
         share
     }
 
-    /// Everything but contact: fills the matrix, and gives its diagonal and the right-hand side.
+    /// Everything but contact: fills the matrix, and gives the knots' own blocks and the right-hand side.
     fn assemble(
         &mut self,
         x: &[Vector3<f64>],
@@ -272,29 +280,27 @@ impl<'a> Workshop<'a> {
             let k = stitch.stiffness(way.norm(), manner.sewing);
             self.force[a] += way * k;
             self.force[b] -= way * k;
-            add_scalar(&mut matrix.diagonal[a], k);
-            add_scalar(&mut matrix.diagonal[b], k);
             add_scalar(&mut matrix.off[stitch.slots[0] as usize], -k);
             add_scalar(&mut matrix.off[stitch.slots[1] as usize], -k);
         }
+        matrix.own.fill([[0.0; 4]; 3]);
         for (knot, force, k) in self.holds.pull(&self.cloth, x) {
             self.force[knot as usize] += force;
-            add(&mut matrix.diagonal[knot as usize], &k);
+            add(&mut matrix.own[knot as usize], &k);
         }
-        let normals =
-            if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
+        let normals = if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
         for (i, force) in self.force.iter_mut().enumerate() {
             let mass = self.cloth.mass[i];
             force.y -= mass * manner.gravity;
             *force += v[i] * (mass / dt);
             let own = mass / (dt * dt) + mass * manner.calm / dt;
-            add_scalar(&mut matrix.diagonal[i], own);
+            add_scalar(&mut matrix.own[i], own);
             if let Some(normal) = normals.get(i) {
                 let drag = air::damping(manner.air, self.cloth.area[i], normal, &v[i]);
-                add(&mut matrix.diagonal[i], &(drag / dt));
+                add(&mut matrix.own[i], &(drag / dt));
             }
         }
-        (matrix.diagonal.clone(), self.force.clone())
+        (matrix.own.clone(), self.force.clone())
     }
 
     /// Adds contact to what [`Workshop::assemble`] gave.
@@ -303,11 +309,11 @@ impl<'a> Workshop<'a> {
         base: &(Vec<Block>, Vec<Vector3<f64>>),
         pushes: &[Option<Push>],
     ) -> Vec<Lane> {
-        self.matrix.diagonal.copy_from_slice(&base.0);
+        self.matrix.own.copy_from_slice(&base.0);
         let mut b: Vec<Lane> = base.1.iter().map(lane).collect();
         for (i, push) in pushes.iter().enumerate() {
             if let Some((force, k)) = push {
-                add(&mut self.matrix.diagonal[i], k);
+                add(&mut self.matrix.own[i], k);
                 b[i] = lane(&(base.1[i] + force));
             }
         }

@@ -8,17 +8,22 @@
 
 mod block;
 mod declaration;
+mod drape;
 mod expression;
 pub mod fields;
 pub mod figure;
 mod function;
+mod garment;
 pub mod item;
 mod module;
 mod operator;
 pub mod panel;
+mod place;
 mod read;
 pub mod sari;
+mod scene;
 pub mod scope;
+mod seam;
 pub mod textile;
 pub mod value;
 pub mod words;
@@ -95,6 +100,8 @@ pub struct Evaluator<'t> {
     bindings: Vec<Binding<'t>>,
     items: Vec<Item<'t>>,
     instances: Vec<panel::Instance<'t>>,
+    /// Blocks of cloths, read once.
+    cloths: BTreeMap<ItemId, fields::Fields<'t>>,
     /// Values of fitted names, by the scope of the panel they belong to.
     fits: BTreeMap<ScopeId, BTreeMap<String, Quantity>>,
     /// Parameters set by copies, by the scope of the copy.
@@ -125,6 +132,7 @@ impl<'t> Evaluator<'t> {
             bindings: Vec::new(),
             items: Vec::new(),
             instances: Vec::new(),
+            cloths: BTreeMap::new(),
             fits: BTreeMap::new(),
             settings: BTreeMap::new(),
             libraries: BTreeMap::new(),

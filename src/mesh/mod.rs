@@ -6,10 +6,12 @@
 //! them gets its count of steps ([`spacing`]); then each panel is cut by itself ([`panel`]):
 //! its grid ([`lattice`]), the band along its edges ([`band`], [`triangulation`], [`improve`]).
 
+pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
 pub mod improve;
+pub mod json;
 pub mod lattice;
 pub mod limit;
 pub mod matching;
@@ -35,16 +37,27 @@ use spacing::{Address, Spacing};
 
 /// The side of a grid cell where nothing else is asked for, m.
 pub const DEFAULT_CELL: f64 = 8e-3;
+/// No cell is smaller, m.
+const FINEST_CELL: f64 = 1e-5;
 /// Breakpoints of sewing partners this near to each other are sewn to each other, in cells.
 const REACH: f64 = 0.15;
 /// How often steps may be shortened until every panel comes out well.
 const ROUNDS: usize = 6;
 
 /// How to compile.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Side of the grid cells of all panels, m, whatever the text asks for.
     pub cell: Option<f64>,
+    /// Factor on the sides of all cells. More than 1 gives a coarser cloth of the same garment,
+    /// from which a drape may start; it comes without the picture of its textiles.
+    pub coarsen: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { cell: None, coarsen: 1.0 }
+    }
 }
 
 /// Cuts a garment.
@@ -59,8 +72,8 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
         .iter()
         .zip(&outlines)
         .map(|(panel, loops)| {
-            let asked = options.cell.or(panel.cell).unwrap_or(DEFAULT_CELL);
-            let asked = if asked.is_finite() { asked.max(1e-5) } else { DEFAULT_CELL };
+            let asked = options.cell.or(panel.cell).unwrap_or(DEFAULT_CELL) * options.coarsen;
+            let asked = if asked.is_finite() { asked.max(FINEST_CELL) } else { DEFAULT_CELL };
             limit::fitting_cell(panel, loops, asked)
         })
         .collect();
@@ -70,7 +83,11 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     }
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = plan.cut(garment, &outlines, &cells)?;
-    Ok(assemble(garment, &plan, &spacing, &cells, cloths))
+    let mut compiled = assemble(garment, &plan, &spacing, &cells, cloths);
+    if options.coarsen <= 1.0 {
+        atlas::draw(garment, &mut compiled);
+    }
+    Ok(compiled)
 }
 
 /// Breakpoints and walks of everything that runs along the cut lines.
