@@ -248,9 +248,9 @@ fn a_tile_has_the_mean_colour_of_its_yarns() {
             assert!((found - share).abs() < 0.22, "{} {side}: {found} for {share}", fabric.name);
             for n in 0..3 {
                 let expected = found * warp[n] + (1.0 - found) * weft[n];
-                // Highlights of a white yarn end at white, which costs it a little.
+                // White yarn gives up a tenth, so that its lights keep their form.
                 let error = (mean[n] - expected) / expected;
-                assert!(error.abs() < 0.06, "{} {side} {n}: {error}", fabric.name);
+                assert!((-0.10..0.03).contains(&error), "{} {side} {n}: {error}", fabric.name);
             }
         }
     }
@@ -301,9 +301,7 @@ fn the_matrix_can_be_read_off_the_picture() {
     ];
     let fabrics: Vec<Fabric> = weaves
         .iter()
-        .map(|weave| {
-            woven(&weave.name, weave.clone(), (cotton(BLUE), 24.0), (cotton(WHITE), 20.0))
-        })
+        .map(|weave| woven(&weave.name, weave.clone(), (cotton(BLUE), 24.0), (cotton(WHITE), 20.0)))
         .collect();
     let compiled = drawn(fabrics, None);
     for weave in &weaves {
@@ -362,4 +360,206 @@ fn the_atlas_has_the_same_bytes_on_one_thread_and_many() {
     let one = bytes(1);
     assert!(one == bytes(3), "threads change the picture");
     assert!(!one.is_empty());
+}
+
+/// A motif from its picture, top row first: `*` gold, `o` red.
+fn motif(picture: &[&str], size: [f64; 2]) -> Motif {
+    let cell = |c| match c {
+        '*' => Some(GOLD),
+        'o' => Some(opaque(RED)),
+        _ => None,
+    };
+    let rows = picture.iter().rev().map(|row| row.chars().map(cell).collect()).collect();
+    Motif { name: "motif".into(), rows, size }
+}
+
+fn part(name: &str, ground: [u8; 3]) -> Part {
+    Part {
+        name: name.into(),
+        ground: opaque(ground),
+        shot: None,
+        weave: None,
+        bands: vec![],
+        stripes: vec![],
+        repeats: vec![],
+        spots: vec![],
+        edges: vec![],
+    }
+}
+
+const AUBERGINE: [u8; 3] = [59, 23, 66];
+const GREEN: [u8; 3] = [30, 107, 79];
+const MAROON: [u8; 3] = [122, 31, 61];
+
+fn silk() -> Fabric {
+    let silk = |colour| yarn(7.3, Fibre::Silk, 3, 400.0, colour);
+    woven("silk", Weave::plain(), (silk(AUBERGINE), 44.0), (silk(MAROON), 40.0))
+}
+
+/// A sari of four parts.
+fn paithani() -> Sari {
+    let buti = motif(&["...*...", "..***..", ".**o**.", "..***..", "...*..."], [0.018, 0.014]);
+    let temple = motif(&["...*...", "..***..", ".*****.", "*******"], [0.021, 0.016]);
+    let parrot = motif(
+        &[
+            "....***.........",
+            "...**o**........",
+            "..******........",
+            ".*.*****........",
+            "....*****.......",
+            "....*******.....",
+            ".....***o***....",
+            ".....**ooo***...",
+            "......*ooo****..",
+            ".......*o*****..",
+            "........*******.",
+            ".........**.***.",
+            "........**...***",
+            ".......*.*....**",
+        ],
+        [0.060, 0.055],
+    );
+    let mut ang = part("ang", AUBERGINE);
+    ang.shot = Some(opaque(MAROON));
+    ang.spots =
+        vec![Spots { motif: buti, pitch: [0.09, 0.09], half_drop: true, thinning: [1.0, 0.25] }];
+    let mut kath = part("kath", GREEN);
+    kath.repeats = vec![Repeat { motif: parrot.clone(), pitch: 0.11, flip: true }];
+    kath.edges = vec![Repeat { motif: temple.in_colour(opaque(GREEN)), pitch: 0.021, flip: false }];
+    kath.stripes = vec![
+        Stripe { colour: GOLD, offset: 0.004, width: 0.006 },
+        Stripe { colour: GOLD, offset: 0.088, width: 0.006 },
+    ];
+    let mut upper = part("upper", GREEN);
+    upper.edges = kath.edges.clone();
+    upper.stripes = vec![Stripe { colour: GOLD, offset: 0.004, width: 0.006 }];
+    let mut padar = part("padar", MAROON);
+    let band = |fill, length| Band { fill, length };
+    padar.bands = vec![
+        band(BandFill::Colour(GOLD), 0.02),
+        band(BandFill::Motif(parrot.clone()), 0.14),
+        band(BandFill::Colour(GOLD), 0.02),
+        band(BandFill::Motif(temple.clone()), 0.05),
+        band(BandFill::Motif(parrot), 0.35),
+        band(BandFill::Colour(GOLD), 0.17),
+    ];
+    padar.edges = vec![Repeat { motif: temple, pitch: 0.021, flip: false }];
+    Sari {
+        name: "paithani".into(),
+        length: 5.5,
+        width: 1.15,
+        ang,
+        lower_kath: Some((kath, 0.10)),
+        upper_kath: Some((upper, 0.04)),
+        padar: Some((padar, 0.75)),
+    }
+}
+
+/// The colour of a sari at a place of the cloth, m from its inner end and lower edge, looked up
+/// as anyone who shows the panel does.
+fn seen(compiled: &Compiled, [x, y]: [f64; 2], back: bool) -> [u8; 4] {
+    let (u, v) = (-y, x);
+    let surface = compiled.panels[0]
+        .surfaces
+        .iter()
+        .find(|surface| {
+            surface.area.is_none_or(|[u0, v0, u1, v1]| u0 <= u && u <= u1 && v0 <= v && v <= v1)
+        })
+        .expect("every place of the cloth shows something");
+    let [u0, v0, ..] = surface.area.unwrap_or_default();
+    let region = &compiled.atlas.regions[if back { surface.back } else { surface.face }];
+    let tile = Tile { compiled, region };
+    let [width, height] = tile.size();
+    let column = (u - u0) / region.size[0] * width as f64;
+    let row = height as f64 - (v - v0) / region.size[1] * height as f64;
+    tile.at((column as i64).clamp(0, width - 1), (row as i64).clamp(0, height - 1))
+}
+
+/// Which of these colours it is, allowing for the unevenness of threads.
+fn nearest<'a>(pixel: [u8; 4], colours: &[(&'a str, [u8; 3])]) -> &'a str {
+    let distance = |colour: [u8; 3]| -> i32 {
+        (0..3).map(|n| (i32::from(pixel[n]) - i32::from(colour[n])).pow(2)).sum()
+    };
+    colours.iter().min_by_key(|(_, colour)| distance(*colour)).unwrap().0
+}
+
+#[test]
+fn the_parts_of_a_sari_lie_where_they_belong() {
+    let sari = paithani();
+    let compiled = drawn(vec![silk()], Some(sari.clone()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    for region in &compiled.atlas.regions {
+        Tile { compiled: &compiled, region }.save(&folder.join(format!("{}.png", region.name)));
+    }
+    // Warp and weft of the shot field show half each, in linear light.
+    let (warp, weft) = (opaque(AUBERGINE).linear(), opaque(MAROON).linear());
+    let field = Colour::from_linear([0, 1, 2].map(|n| (warp[n] + weft[n]) / 2.0)).0;
+    let field = [field[0], field[1], field[2]];
+    let gold = [GOLD.0[0], GOLD.0[1], GOLD.0[2]];
+    let colours =
+        [("field", field), ("green", GREEN), ("gold", gold), ("maroon", MAROON), ("red", RED)];
+    let at = |x, y| nearest(seen(&compiled, [x, y], false), &colours);
+    // Between the spots, which lie on a grid about the middle of the field.
+    assert_eq!(at(1.0, 0.57), "field");
+    // The gold stripe of each border lies near its outer edge.
+    assert_eq!(at(2.5, 0.007), "gold");
+    assert_eq!(at(2.5, 1.15 - 0.007), "gold");
+    assert_eq!(at(2.5, 0.015), "green");
+    // The very corners are cloth too.
+    for corner in [[0.0, 0.0], [5.5, 0.0], [0.0, 1.15], [5.5, 1.15]] {
+        assert_eq!(at(corner[0], corner[1]), "green");
+    }
+    // Bands of the padar from the field to the end.
+    assert_eq!(at(4.75 + 0.01, 0.6), "gold");
+    assert_eq!(at(4.75 + 0.17, 0.6), "gold");
+    assert_eq!(at(5.49, 0.6), "gold");
+    // Teeth of the border stand in the field: at their foot all along, at their tip in the
+    // middle of each only.
+    let teeth = 5.5 / (5.5f64 / 0.021).round();
+    assert_eq!(at(40.5 * teeth, 0.1 + 0.002), "green");
+    assert_eq!(at(40.5 * teeth, 0.1 + 0.013), "green");
+    assert_eq!(at(40.0 * teeth, 0.1 + 0.013), "field");
+    assert_eq!(at(40.5 * teeth, 1.15 - 0.04 - 0.013), "green");
+    // Teeth of the padar point to the field.
+    let teeth = 1.01 / (1.01f64 / 0.021).round();
+    assert_eq!(at(4.75 - 0.013, 0.1 + 20.5 * teeth), "gold");
+    assert_eq!(at(4.75 - 0.013, 0.1 + 20.0 * teeth), "field");
+}
+
+/// Spots are all there at the padar and thin out towards the inner end.
+#[test]
+fn spots_thin_out_from_the_padar() {
+    let mut sari = paithani();
+    sari.ang.spots[0].half_drop = false;
+    let compiled = drawn(vec![silk()], Some(sari));
+    // 52 columns of 0.09 m in 4.75 m, 11 rows in 1.01 m.
+    let middle = |n: usize, count: usize, start: f64, length: f64| {
+        start + (length - count as f64 * 0.09) / 2.0 + (n as f64 + 0.5) * 0.09
+    };
+    let kept = |columns: std::ops::Range<usize>| {
+        let places = columns.clone().flat_map(|column| (0..11).map(move |row| (column, row)));
+        let count = places
+            .filter(|&(column, row)| {
+                let place = [middle(column, 52, 0.0, 4.75), middle(row, 11, 0.1, 1.01)];
+                let [red, _, blue, _] = seen(&compiled, place, false);
+                red > blue + 60
+            })
+            .count();
+        count as f64 / (11 * columns.len()) as f64
+    };
+    assert!(kept(48..52) > 0.9, "{}", kept(48..52));
+    // 25 % … 40 % of 110 spots, four standard deviations of √(0.33 · 0.67 / 110) either way.
+    let few = kept(0..10);
+    assert!((few - 0.32).abs() < 0.18, "{few}");
+}
+
+/// The bytes of a tile do not change unawares.
+#[test]
+fn the_atlas_of_denim_is_this_one() {
+    let atlas = drawn(vec![denim()], None).atlas;
+    let hash = blake3::hash(&atlas.pixels).to_hex();
+    insta::assert_snapshot!(format!(
+        "{} x {}\n{}\n{:?}",
+        atlas.width, atlas.height, hash, atlas.regions
+    ));
 }

@@ -94,6 +94,36 @@ fn sheet(surface: &Surface, name: &str, middle: f64, span: f64) -> Vec<Vec<Optio
 }
 
 #[test]
+fn other_sizes_keep_their_shape() {
+    let people: [(&str, Figure, &[(&str, f64)]); 4] = [
+        (
+            "large",
+            Figure::Female,
+            &[("bust", 1.28), ("underbust", 1.08), ("waist", 1.14), ("hip", 1.34)],
+        ),
+        (
+            "child",
+            Figure::Female,
+            &[("height", 1.16), ("bust", 0.6), ("waist", 0.54), ("hip", 0.64)],
+        ),
+        (
+            "stout",
+            Figure::Male,
+            &[("height", 1.76), ("chest", 1.24), ("waist", 1.22), ("hip", 1.22)],
+        ),
+        ("slim", Figure::Male, &[("height", 1.9), ("chest", 0.92), ("waist", 0.76), ("hip", 0.94)]),
+    ];
+    for (name, figure, measures) in people {
+        let body = mannequin(&request(figure, measures)).unwrap();
+        let views = sheet(&body, name, 0.95, 2.05);
+        // The trunk is one filled stretch at the waist, whatever the size.
+        let row = HEIGHT / 2;
+        let front = &views[0][(row * WIDTH) as usize..((row + 1) * WIDTH) as usize];
+        assert!(front[WIDTH as usize / 2].is_some(), "{name}");
+    }
+}
+
+#[test]
 fn figures_stand_free_and_are_symmetric() {
     for (figure, name) in [(Figure::Female, "female"), (Figure::Male, "male")] {
         let clock = std::time::Instant::now();

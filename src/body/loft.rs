@@ -5,6 +5,9 @@ use nalgebra::{Point3, Vector3};
 /// Spacing of the sections that a loft is stored as, m.
 const STEP: f64 = 0.003;
 
+/// Bound on the square of the slope by which a distance is shortened.
+const MOST_STEEP: f64 = 6.0;
+
 /// A section given by the figure's table, in the loft's own frame, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
@@ -186,7 +189,9 @@ impl Loft {
         let shift = cos * slope[4] + sin * slope[5];
         let round = square * cos * sin * (1.0 / (a * a) - 1.0 / (b * b));
         let steep = along + shift;
-        let slant = (1.0 + steep * steep + round * round).sqrt();
+        // Bounded: where a tube opens like a dish, its rim is nearer than its slope.
+        let steep = steep * steep / (1.0 + steep * steep / MOST_STEEP);
+        let slant = (1.0 + steep + round * round).sqrt();
         let over = t - inner;
         if over == 0.0 {
             return (across - reach) / slant;
@@ -196,7 +201,10 @@ impl Loft {
         let (i, j) = (over / cap, across / reach);
         let k = (i * i + j * j).sqrt();
         let (i, j) = (i / cap, j / reach);
-        k * (k - 1.0) / ((i * i + j * j).sqrt() * slant)
+        let steepest = i * i + j * j;
+        // The slant of the end section counts sideways, not beyond the tip.
+        let slant = 1.0 + (slant - 1.0) * j * j / steepest;
+        k * (k - 1.0) / (steepest.sqrt() * slant)
     }
 }
 

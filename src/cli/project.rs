@@ -40,8 +40,8 @@ impl Project {
         match world.open(name) {
             Ok(root) => Ok(Project { world, root, format: input.message_format }),
             Err(why) => {
-                let told = Diagnostic::new("E0903", format!("cannot read `{}`", path.display()))
-                    .help(why);
+                let told =
+                    Diagnostic::new("E0903", format!("cannot read `{}`", path.display())).help(why);
                 tell(&[told], &world, input.message_format);
                 Err(Stop::Input)
             }

@@ -12,6 +12,8 @@ use crate::geometry::polygon::{
 const TURN: f64 = std::f64::consts::FRAC_PI_4;
 /// Cloth narrower than this share of the steps along it asks for shorter ones.
 const SLENDER: f64 = 0.6;
+/// Steps are not made shorter than this for the sake of narrow cloth, in cells.
+const SHORTEST: f64 = 0.125;
 /// Sharp corners excuse narrow cloth beside them: sides further apart than this along the line,
 /// measured by their distance across, are told from the two sides of a corner.
 const APART: f64 = 8.0;
@@ -21,6 +23,8 @@ const APART: f64 = 8.0;
 pub struct Spacing {
     /// By the number of the class; 0 where no class has that number.
     steps: Vec<usize>,
+    /// More steps than these are not taken.
+    most: Vec<usize>,
 }
 
 impl Spacing {
@@ -45,13 +49,16 @@ impl Spacing {
                 turns[class] = turns[class].max(bends as usize);
             }
         }
-        let steps = (0..count).map(|class| {
-            if longest[class] == 0.0 {
-                return 0;
-            }
-            nearest_count((longest[class] * shortest[class]).sqrt()).max(turns[class])
-        });
-        Spacing { steps: steps.collect() }
+        let steps: Vec<usize> = (0..count)
+            .map(|class| {
+                if longest[class] == 0.0 {
+                    return 0;
+                }
+                nearest_count((longest[class] * shortest[class]).sqrt()).max(turns[class])
+            })
+            .collect();
+        let most = |class: usize| steps[class].max((longest[class] / SHORTEST).ceil() as usize);
+        Spacing { most: (0..count).map(most).collect(), steps }
     }
 
     /// Steps of a class.
@@ -59,10 +66,13 @@ impl Spacing {
         self.steps[class]
     }
 
-    /// Makes the steps of a class shorter by a factor, at least by one more step.
-    pub fn refine(&mut self, class: usize, factor: f64) {
+    /// Makes the steps of a class shorter by a factor, as far as they may be; tells whether that
+    /// changed anything.
+    pub fn refine(&mut self, class: usize, factor: f64) -> bool {
         let steps = self.steps[class];
-        self.steps[class] = ((steps as f64 * factor).ceil() as usize).max(steps + 1);
+        let wanted = ((steps as f64 * factor).ceil() as usize).max(steps + 1);
+        self.steps[class] = wanted.min(self.most[class]);
+        self.steps[class] > steps
     }
 }
 

@@ -108,8 +108,7 @@ impl Figure {
                 .filter(|(_, other)| *other == Some(colour))
                 .map(|(share, _)| share)
                 .sum();
-            let field = field * field;
-            let weight = share * field * field;
+            let weight = (share * field).powi(4);
             weights += weight;
             for (sum, value) in light.iter_mut().zip(colour) {
                 *sum += weight * value;
@@ -118,7 +117,7 @@ impl Figure {
         // The steps are 1.5 steep at the outline.
         let cover = ((depth - 0.5) / (1.5 * pixel.max(1e-3)) + 0.5).clamp(0.0, 1.0);
         let cover = if depth > 0.0 { cover } else { 0.0 };
-        Shown { light: light.map(|sum| sum / weights.max(1e-9)), cover, depth }
+        Shown { light: light.map(|sum| sum / weights.max(1e-20)), cover, depth }
     }
 
     /// The thread that floats across the back at this height of the chart, if one does: its

@@ -3,11 +3,12 @@
 
 /// A well mixed number from a seed and a place on a lattice.
 pub fn hash(seed: u32, a: u32, b: u32) -> u32 {
-    let mut mixed = seed.wrapping_mul(0x9e37_79b1) ^ a.wrapping_mul(0x85eb_ca77);
-    mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x2c1b_3c6d) ^ b.wrapping_mul(0xc2b2_ae3d);
+    let mut mixed = seed.wrapping_mul(0x9e37_79b1)
+        ^ a.wrapping_mul(0x85eb_ca77)
+        ^ b.wrapping_mul(0xc2b2_ae3d).rotate_left(13);
+    mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x2c1b_3c6d);
     mixed = (mixed ^ (mixed >> 12)).wrapping_mul(0x297a_2d39);
-    mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x85eb_ca6b);
-    mixed ^ (mixed >> 16)
+    mixed ^ (mixed >> 15)
 }
 
 /// From 0 up to, but not, 1.
@@ -26,27 +27,30 @@ pub fn ease(t: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
+/// The lattice points on both sides of `x`, counted round `period`, and how far between them `x`
+/// lies.
+fn between(x: f32, period: u32) -> (u32, u32, f32) {
+    let cut = x as i32;
+    let cell = cut.wrapping_sub(i32::from(cut as f32 > x));
+    let period = period.clamp(1, i32::MAX as u32);
+    let low = cell.rem_euclid(period as i32) as u32;
+    let high = if low + 1 == period { 0 } else { low + 1 };
+    (low, high, ease(x - cell as f32))
+}
+
 /// Smooth noise along a line that closes after `period` lattice points; from −1 to 1.
 pub fn line(seed: u32, x: f32, period: u32) -> f32 {
-    let cell = x.floor();
-    let at = |n: i64| signed(seed, n.rem_euclid(i64::from(period.max(1))) as u32, 0);
-    let n = cell as i64;
-    let t = ease(x - cell);
-    at(n) * (1.0 - t) + at(n + 1) * t
+    let (low, high, t) = between(x, period);
+    signed(seed, low, 0) * (1.0 - t) + signed(seed, high, 0) * t
 }
 
 /// Smooth noise over a plane that closes after `period` lattice points each way; from −1 to 1.
 pub fn plane(seed: u32, x: f32, y: f32, period: [u32; 2]) -> f32 {
-    let (column, row) = (x.floor(), y.floor());
-    let at = |dx: i64, dy: i64| {
-        let i = (column as i64 + dx).rem_euclid(i64::from(period[0].max(1))) as u32;
-        let j = (row as i64 + dy).rem_euclid(i64::from(period[1].max(1))) as u32;
-        signed(seed, i, j)
-    };
-    let (s, t) = (ease(x - column), ease(y - row));
-    let low = at(0, 0) * (1.0 - s) + at(1, 0) * s;
-    let high = at(0, 1) * (1.0 - s) + at(1, 1) * s;
-    low * (1.0 - t) + high * t
+    let (left, right, s) = between(x, period[0]);
+    let (low, high, t) = between(y, period[1]);
+    let below = signed(seed, left, low) * (1.0 - s) + signed(seed, right, low) * s;
+    let above = signed(seed, left, high) * (1.0 - s) + signed(seed, right, high) * s;
+    below * (1.0 - t) + above * t
 }
 
 #[cfg(test)]

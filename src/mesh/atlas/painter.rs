@@ -96,7 +96,7 @@ impl Sheet {
         let ends: Vec<f32> = (0..width)
             .map(|column| {
                 let y = y1 - (column as f64 + 0.5) * step[1];
-                1.0 + 0.012 * noise::line(0xe2d, (y / 1.3e-3) as f32, u32::MAX)
+                1.0 + 0.012 * noise::line(0xe2d, (y / 1.3e-3) as f32, i32::MAX as u32)
             })
             .collect();
         picture.par_chunks_mut(4 * width * BAND).zip(&bands).enumerate().for_each(
@@ -104,7 +104,8 @@ impl Sheet {
                 let mut light = vec![[0f32; 3]; width];
                 for (line, row) in rows.chunks_mut(4 * width).enumerate() {
                     let x = x1 - ((band * BAND + line) as f64 + 0.5) * step[0];
-                    let pick = 1.0 + 0.02 * noise::line(0x91c, (x / 0.9e-3) as f32, u32::MAX);
+                    let pick =
+                        1.0 + 0.02 * noise::line(0x91c, (x / 0.9e-3) as f32, i32::MAX as u32);
                     let cut = Cut { x, step, top: y1, ends: &ends, pick, back: self.back };
                     for &mark in marks {
                         match self.design.marks[mark] {
@@ -214,8 +215,12 @@ impl Cut<'_> {
             let beside = noise::ease((shown.depth - 0.15) / 0.35) * (1.0 - shown.cover);
             *ground = ground.map(|value| value * (1.0 - 0.22 * beside));
             let edge = 1.0 - noise::ease((shown.depth - 0.45) / 0.4);
-            let thread =
-                noise::plane(0xb0c, (y / 3.0e-3) as f32, (self.x / 0.45e-3) as f32, [u32::MAX; 2]);
+            let thread = noise::plane(
+                0xb0c,
+                (y / 3.0e-3) as f32,
+                (self.x / 0.45e-3) as f32,
+                [i32::MAX as u32; 2],
+            );
             let dull = if self.back { 0.86 } else { 1.0 };
             let tone = dull * (1.04 - 0.16 * edge) * (1.0 + 0.09 * thread);
             mix(ground, shown.light.map(|value| value * tone), shown.cover);

@@ -86,10 +86,29 @@ pub fn lay(strands: &[Strand], width: usize, height: usize) -> Vec<Seen> {
     field
 }
 
+/// How far a piece is drawn beyond its ends, as a share of its half width, so that no wedge is
+/// left open where two pieces meet at an angle.
+const OVERLAP: f32 = 0.35;
+
+/// The box that a piece fills: least and greatest x, least and greatest y.
+fn bounds(ends: &[Node]) -> [f32; 4] {
+    let [a, b] = [ends[0], ends[1]];
+    let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
+    let length = (dx * dx + dy * dy).sqrt().max(1e-6);
+    let half = a.half.max(b.half);
+    let reach = |along: f32, aside: f32| half * (OVERLAP * along.abs() + aside.abs()) / length;
+    let (x, y) = (reach(dx, dy), reach(dy, dx));
+    [
+        a.at[0].min(b.at[0]) - x,
+        a.at[0].max(b.at[0]) + x,
+        a.at[1].min(b.at[1]) - y,
+        a.at[1].max(b.at[1]) + y,
+    ]
+}
+
 /// The rows that a piece touches.
 fn rows_of(ends: &[Node]) -> [i64; 2] {
-    let low = ends.iter().map(|node| node.at[1] - node.half).fold(f32::INFINITY, f32::min);
-    let high = ends.iter().map(|node| node.at[1] + node.half).fold(f32::NEG_INFINITY, f32::max);
+    let [_, _, low, high] = bounds(ends);
     [low.floor() as i64, high.ceil() as i64]
 }
 
@@ -103,40 +122,45 @@ struct Window {
 impl Window {
     fn lay_piece(&self, rows: &mut [Seen], strand: &Strand, number: u32, ends: &[Node]) {
         let [a, b] = [ends[0], ends[1]];
-        let [low, high] = rows_of(ends);
+        let [left, right, low, high] = bounds(ends);
         let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
         let square = (dx * dx + dy * dy).max(1e-12);
         let length = square.sqrt();
-        let reach = a.half.max(b.half);
-        let left = (a.at[0].min(b.at[0]) - reach).floor() as i64;
-        let right = (a.at[0].max(b.at[0]) + reach).ceil() as i64;
-        for row in low..=high {
+        let beyond = OVERLAP * a.half.max(b.half) / length;
+        let (left, right) = (left.floor() as i64, right.ceil() as i64);
+        let left_column = left.rem_euclid(self.width as i64) as usize;
+        for row in low.floor() as i64..=high.ceil() as i64 {
             let place = row.rem_euclid(self.height as i64) as usize;
             let Some(line) = place.checked_sub(self.first).filter(|&line| line < BAND) else {
                 continue;
             };
+            let Some(row_seen) = rows.get_mut(line * self.width..(line + 1) * self.width) else {
+                continue;
+            };
             let y = row as f32 + 0.5 - a.at[1];
+            let mut at = left_column;
             for column in left..=right {
+                let seen = &mut row_seen[at];
+                at = if at + 1 == self.width { 0 } else { at + 1 };
                 let x = column as f32 + 0.5 - a.at[0];
-                let t = ((x * dx + y * dy) / square).clamp(0.0, 1.0);
-                let half = a.half + (b.half - a.half) * t;
-                let (off_x, off_y) = (x - dx * t, y - dy * t);
-                let distance = off_x * off_x + off_y * off_y;
-                if distance >= half * half {
+                let t = (x * dx + y * dy) / square;
+                if t < -beyond || t > 1.0 + beyond {
                     continue;
                 }
-                let q = distance / (half * half);
+                let t = t.clamp(0.0, 1.0);
+                let half = a.half + (b.half - a.half) * t;
+                let (off_x, off_y) = (x - dx * t, y - dy * t);
+                let q = (off_x * off_x + off_y * off_y) / (half * half);
                 let z = a.at[2] + (b.at[2] - a.at[2]) * t;
-                let height = z + half * strand.flatness * (1.0 - q).sqrt();
-                let column = column.rem_euclid(self.width as i64) as usize;
-                let Some(seen) = rows.get_mut(line * self.width + column) else {
+                let top = half * strand.flatness;
+                if q >= 1.0 || z + top <= seen.height {
                     continue;
-                };
+                }
+                let height = z + top * (1.0 - q).sqrt();
                 if height > seen.height {
-                    let side = (x * dy - y * dx) / length;
                     *seen = Seen {
                         height,
-                        across: q.sqrt().copysign(side),
+                        across: q.sqrt().copysign(x * dy - y * dx),
                         along: a.along + (b.along - a.along) * t,
                         strand: number,
                     };

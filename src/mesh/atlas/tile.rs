@@ -83,26 +83,43 @@ pub fn draw(strands: &[Strand], yarns: &[Look], grid: Grid, shading: Shading) ->
     let wide = blurred(&heights, grid, (1.1 * shading.thread) as usize);
     let lengths: Vec<f32> =
         strands.iter().map(|strand| strand.nodes.last().map_or(1.0, |node| node.along)).collect();
+    let (lowest, highest) = heights
+        .iter()
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
+    let depth = (0.34 * (highest - lowest)).max(1e-3);
     let mut shades = vec![0f32; field.len()];
-    shades.par_chunks_mut(grid.width).enumerate().for_each(|(row, shades)| {
-        let first = row * grid.width;
-        for (column, shade) in shades.iter_mut().enumerate() {
-            let n = first + column;
-            let seen = field[n];
-            if seen.height == GAP {
-                continue;
+    shades.par_chunks_mut(FINE * grid.width).enumerate().for_each(|(line, shades)| {
+        let first = line * FINE * grid.width;
+        for column in 0..grid.width / FINE {
+            // What does not change within a pixel is found once for it.
+            let place = [
+                (column * FINE) as f32 / grid.width as f32,
+                (line * FINE) as f32 / grid.height as f32,
+            ];
+            let fuzz = fuzz(place, grid, shading);
+            let mut known: Option<(u32, f32)> = None;
+            for sample in 0..FINE * FINE {
+                let within = sample / FINE * grid.width + column * FINE + sample % FINE;
+                let n = first + within;
+                let seen = field[n];
+                if seen.height == GAP {
+                    continue;
+                }
+                let skin = match known {
+                    Some((strand, skin)) if strand == seen.strand => skin,
+                    _ => {
+                        let strand = seen.strand as usize;
+                        let share = seen.along / lengths[strand];
+                        skin(&yarns[strands[strand].yarn], seen.strand, share, seen.across)
+                    }
+                };
+                known = Some((seen.strand, skin));
+                let round = 1.0 - 0.5 * seen.across * seen.across;
+                let over = (0.6 * (near[n] - heights[n]) + 0.7 * (wide[n] - heights[n])) / depth;
+                let shadow = 1.0 - 0.75 * noise::ease(over + 0.12) + 0.12 * (-over).clamp(0.0, 1.0);
+                let formed = 1.0 + shading.relief * (round * shadow - 1.0);
+                shades[within] = (formed * skin * fuzz).max(0.05);
             }
-            let strand = seen.strand as usize;
-            let look = &yarns[strands[strand].yarn];
-            let share = seen.along / lengths[strand];
-            let skin = skin(look, seen.strand, share, seen.across);
-            let round = 1.0 - 0.5 * seen.across * seen.across;
-            let over = (0.6 * (near[n] - heights[n]) + 0.7 * (wide[n] - heights[n]))
-                / (0.5 * shading.thread);
-            let shadow = 1.0 - 0.75 * noise::ease(over + 0.12) + 0.12 * (-over).clamp(0.0, 1.0);
-            let place = [column as f32 / grid.width as f32, row as f32 / grid.height as f32];
-            let formed = 1.0 + shading.relief * (round * shadow - 1.0);
-            *shade = (formed * skin * fuzz(place, grid, shading)).max(0.05);
         }
     });
     expose(&field, strands, yarns, &shades, grid)
@@ -122,7 +139,7 @@ fn skin(look: &Look, strand: u32, share: f32, across: f32) -> f32 {
     } else {
         0.0
     };
-    const AROUND: u32 = 14;
+    const AROUND: u32 = 16;
     let cells = (look.turns / 2).max(8);
     let seed = 0x5eed ^ strand;
     let around = turned * 0.5 * AROUND as f32;
@@ -216,8 +233,86 @@ fn slide(
 /// Light of a gap against that of the yarns about it.
 const GAP_LIGHT: f32 = 0.22;
 
-/// Colours, opacity, and the shades scaled so that the mean light of the tile is that of its
-/// yarns by the area in which each is seen.
+/// Light above this is pressed together, so that the highlights of white yarn keep their form.
+const SHOULDER: f32 = 0.86;
+
+/// What is left of a yarn's light under a shade; the same for its three colours, so that the hue
+/// is kept.
+fn pressed(light: [f32; 3], shade: f32) -> f32 {
+    let room = 1.0 - SHOULDER;
+    let own = light[0].max(light[1]).max(light[2]).max(1e-6);
+    let over = ((own * shade - SHOULDER) / room).max(0.0);
+    ((own * shade).min(SHOULDER) + room * over / (1.0 + over)) / own
+}
+
+/// How much of each yarn is seen, by shade.
+struct Census {
+    /// Samples of each yarn with a shade in each hundredth.
+    shades: Vec<[u32; Census::STEPS]>,
+    /// Samples in which nothing is seen.
+    open: usize,
+    samples: usize,
+}
+
+impl Census {
+    const STEPS: usize = 256;
+
+    fn of(field: &[Seen], strands: &[Strand], shades: &[f32], yarns: usize) -> Census {
+        let none = vec![[0; Census::STEPS]; yarns];
+        let mut census = Census { shades: none, open: 0, samples: field.len().max(1) };
+        for (seen, shade) in field.iter().zip(shades) {
+            if seen.height > GAP {
+                let step = ((100.0 * shade) as usize).min(Census::STEPS - 1);
+                census.shades[strands[seen.strand as usize].yarn][step] += 1;
+            } else {
+                census.open += 1;
+            }
+        }
+        census
+    }
+
+    /// Mean colour of the yarns by the area in which each is seen.
+    fn mean(&self, yarns: &[Look]) -> [f32; 3] {
+        let covered = (self.samples - self.open).max(1) as f32;
+        let mut mean = [0.0; 3];
+        for (look, shades) in yarns.iter().zip(&self.shades) {
+            let seen: u32 = shades.iter().sum();
+            for (mean, light) in mean.iter_mut().zip(look.light) {
+                *mean += light * seen as f32 / covered;
+            }
+        }
+        mean
+    }
+
+    /// The factor on all shades with which the yarns send back as much light as they would
+    /// without shade, gaps counted as far as they are opaque. It is one factor for all yarns: one
+    /// that lies deep stays darker than one that lies on top.
+    fn scale(&self, yarns: &[Look], gap_opacity: f32) -> f32 {
+        let covered = (self.samples - self.open) as f32;
+        let wanted = covered + self.open as f32 * gap_opacity * (1.0 - GAP_LIGHT);
+        // White yarn has no room above it for lights, and would lose its form; it gives up a
+        // little of its mean instead.
+        let [red, green, blue] = self.mean(yarns);
+        let white = noise::ease(2.0 * red.max(green).max(blue) - 1.0);
+        let wanted = wanted * (1.0 - 0.1 * white);
+        let (mut low, mut high) = (0.5, 3.0);
+        for _ in 0..16 {
+            let middle = 0.5 * (low + high);
+            let mut sum = 0.0;
+            for (look, shades) in yarns.iter().zip(&self.shades) {
+                for (step, &samples) in shades.iter().enumerate() {
+                    let shade = middle * (step as f32 + 0.5) / 100.0;
+                    sum += samples as f32 * pressed(look.light, shade);
+                }
+            }
+            if sum < wanted { low = middle } else { high = middle }
+        }
+        0.5 * (low + high)
+    }
+}
+
+/// Colours and opacity, the shades scaled so that the mean light of the tile is that of its
+/// yarns.
 fn expose(
     field: &[Seen],
     strands: &[Strand],
@@ -225,32 +320,12 @@ fn expose(
     shades: &[f32],
     grid: Grid,
 ) -> Vec<u8> {
-    let mut count = vec![0usize; yarns.len()];
-    let mut sums = vec![0f64; yarns.len()];
-    for (seen, shade) in field.iter().zip(shades) {
-        if seen.height > GAP {
-            let yarn = strands[seen.strand as usize].yarn;
-            count[yarn] += 1;
-            sums[yarn] += f64::from(*shade);
-        }
-    }
-    let covered: usize = count.iter().sum();
-    let open = (field.len() - covered) as f32 / field.len().max(1) as f32;
+    let census = Census::of(field, strands, shades, yarns.len());
+    let open = census.open as f32 / census.samples as f32;
     // Fibres that stand off the threads close small gaps.
     let gap_opacity = 1.0 - 0.85 * noise::ease((open - 0.04) / 0.12);
-    let mut gap = [0f32; 3];
-    let mut scale = vec![1f32; yarns.len()];
-    // What the gaps lack in light, the threads carry, as far as the gaps are counted.
-    let lost = open * gap_opacity * (1.0 - GAP_LIGHT) / (1.0 - open).max(0.05);
-    for (yarn, look) in yarns.iter().enumerate() {
-        let part = count[yarn] as f32 / covered.max(1) as f32;
-        for (gap, light) in gap.iter_mut().zip(look.light) {
-            *gap += GAP_LIGHT * part * light;
-        }
-        if sums[yarn] > 0.0 {
-            scale[yarn] = (count[yarn] as f64 / sums[yarn]) as f32 * (1.0 + lost.min(0.3));
-        }
-    }
+    let gap = census.mean(yarns).map(|light| GAP_LIGHT * light);
+    let scale = census.scale(yarns, gap_opacity);
     let [width, height] = [grid.width / FINE, grid.height / FINE];
     let code = super::light::Code::new();
     let mut pixels = vec![0u8; 4 * width * height];
@@ -263,14 +338,15 @@ fn expose(
                 let at = (low + n / FINE) * grid.width + column * FINE + n % FINE;
                 let seen = field[at];
                 let (colour, cover) = if seen.height > GAP {
-                    let yarn = strands[seen.strand as usize].yarn;
-                    (yarns[yarn].light.map(|light| light * shades[at] * scale[yarn]), 1.0)
+                    let look = &yarns[strands[seen.strand as usize].yarn];
+                    let left = pressed(look.light, shades[at] * scale);
+                    (look.light.map(|light| light * left), 1.0)
                 } else {
                     (gap, gap_opacity)
                 };
                 opacity += cover;
                 for (sum, colour) in light.iter_mut().zip(colour) {
-                    *sum += cover * colour.min(1.0);
+                    *sum += cover * colour;
                 }
             }
             let coded = light.map(|sum| code.of(sum / opacity));

@@ -15,7 +15,7 @@ pub const WEFT: usize = 1;
 
 /// Height of a thread that lies over one crossing only, as a share of that of a float: the
 /// shorter the stretch, the more it is held down.
-const SINGLE: f32 = 0.72;
+const SINGLE: f32 = 0.6;
 
 /// How much wider than round a yarn is pressed in cloth.
 const PRESSED: f64 = 1.45;
@@ -106,7 +106,7 @@ impl Course {
     /// Nodes from the middle of the first crossing to its image a tile further on. `up` says at
     /// which crossings the thread lies on top.
     fn nodes(&self, up: impl Fn(usize) -> bool, place: impl Fn(f32, f32) -> [f32; 2]) -> Vec<Node> {
-        let parts = if self.step > 5.0 { 6 } else { 3 };
+        let parts = if self.step > 5.0 { 4 } else { 2 };
         let number = self.number as u32;
         let rise = |crossing: usize| {
             let side = up(crossing);
@@ -128,7 +128,7 @@ impl Course {
                 let next = rise((crossing + 1) % self.crossings);
                 let level = here + (next - here) * noise::ease(fraction);
                 // A float lies freely and spreads; where a thread is bound it is drawn in.
-                let spread = 0.16 * ((level - SINGLE) / (1.0 - SINGLE)).clamp(0.0, 1.0);
+                let spread = 0.2 * ((level - SINGLE) / (1.0 - SINGLE)).clamp(0.0, 1.0);
                 let drawn_in = 1.0 - 0.16 * (1.0 - level.abs());
                 let bend = noise::line(self.seed ^ (number << 8), share * bends as f32, bends);
                 let swell =
