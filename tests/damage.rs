@@ -164,7 +164,7 @@ fn damaged_texts_are_worked_out_and_cut() {
             for garment in &garments {
                 // A sound garment is cut, or it is said why it cannot be.
                 // A coarse cloth is cut as a fine one is, without the picture of its textiles.
-                let coarse = mesh::Options { coarser: 3.0, ..mesh::Options::default() };
+                let coarse = mesh::Options { coarsen: 3.0, ..mesh::Options::default() };
                 if let Err(told) = mesh::compile(garment, &coarse) {
                     assert!(told.iter().any(|told| told.is_error()), "{name}, seed {seed}");
                 }
