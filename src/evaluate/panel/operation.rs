@@ -373,8 +373,7 @@ impl<'t> Evaluator<'t> {
             }
             ((tip + first * (leg / p), tip + second * (leg / q)), tip)
         } else {
-            let depth =
-                self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
+            let depth = self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
             let across = b - a;
             let size = libm::hypot(across.x, across.y).max(f64::MIN_POSITIVE);
             let left = Vec2::new(-across.y / size, across.x / size);

@@ -322,10 +322,8 @@ fn trued(path: &BezPath, (from, to): (f64, f64), start: Point, end: Point) -> Be
     let squared = old.x * old.x + old.y * old.y;
     let mut part = if squared > 1e-12 {
         // new = z · old as complex numbers.
-        let (re, im) = (
-            (new.x * old.x + new.y * old.y) / squared,
-            (new.y * old.x - new.x * old.y) / squared,
-        );
+        let (re, im) =
+            ((new.x * old.x + new.y * old.y) / squared, (new.y * old.x - new.x * old.y) / squared);
         let map = Affine::new([
             re,
             im,
