@@ -222,3 +222,116 @@ fn every_text_ends() {
         assert!(told.len() < 50, "{} messages", told.len());
     }
 }
+
+fn codes(told: &[Diagnostic]) -> Vec<&str> {
+    told.iter().map(|told| told.code.as_str()).collect()
+}
+
+/// Names come from other files by `use`; what is missing there, and files that use each other,
+/// are told.
+#[test]
+fn files_use_each_other_in_one_direction() {
+    let main = "use \"parts/cloth.garment\"::{wool_check, side as_was}
+        use \"parts/cloth.garment\"::side as edge
+        use std::fabric::wool as plain_wool
+        scene s { cloth a of wool_check { size: edge x edge }
+                  cloth b of plain_wool { size: 10cm x 10cm } }";
+    let main = main.replace(", side as_was", "");
+    let cloth = "let side = 30cm\nfabric wool_check = wool with { friction: 0.5 }";
+    let mut world = Memory::new([("main.garment", main.as_str()), ("parts/cloth.garment", cloth)]);
+    let root = world.open("main.garment").unwrap();
+    let (garments, told) = evaluate(&mut world, root, &Options::default());
+    assert!(told.is_empty(), "{}", render::report(&told, &world, false, 100));
+    assert_eq!(garments[0].fabrics.len(), 2);
+    assert!((garments[0].fabrics[0].friction - 0.5).abs() < 1e-12);
+    assert!((length(&garments[0].panels[0].edges[0].runs) - 0.3).abs() < 1e-12);
+
+    let mut world = Memory::new([
+        ("a.garment", "use \"b.garment\"::{y, nothing}\nlet x = 1cm"),
+        ("b.garment", "use \"a.garment\"::x, \"c.garment\"\nlet y = x"),
+    ]);
+    let root = world.open("a.garment").unwrap();
+    let (_, told) = evaluate(&mut world, root, &Options::default());
+    let mut found = codes(&told);
+    found.sort_unstable();
+    assert_eq!(found, ["E0901", "E0902", "E0903"]);
+}
+
+/// Every form of edge, holes, darts to a point, copies in a loop, traced edges.
+#[test]
+fn all_forms_of_outline_are_drawn() {
+    let text = "garment g {
+        wearer lady = female { size: EU 38 }
+        panel forms of cotton {
+            outline from (0, 0) {
+                hem:   line to (30cm, 0)
+                side:  line by 12cm @ 80deg
+                hip:   curve to (30cm, 30cm) leaving smooth arriving 95deg
+                waist: curve to (20cm, 31cm) hollow 8mm
+                dip:   curve to (15cm, 31cm) measuring 52mm inward
+                cap:   curve to (5cm, 31cm) controls (12cm, 36cm), (8cm, 36cm)
+                neck:  curve to (0, 26cm) through (4cm, 28cm), (2cm, 27cm)
+                scye:  arc around (0, 23cm) by -180deg
+                fold:  line to start
+            }
+            eye: hole circle at (15cm, 15cm) radius 2cm
+            hole from (5cm, 5cm) { a: line to (8cm, 5cm); b: line to (8cm, 8cm); c: line to start }
+            notch on hem at 30%
+            dart on side at 5cm from hem width 15mm to (22cm, 8cm)
+            pair as left, right
+        }
+        panel tube of cotton {
+            outline from (0, 0) { trace forms.(hem + side); x: line to (0, 20cm); y: line to start }
+        }
+        for i in 1..3 {
+            panel gore[i] of cotton { rectangle 10cm x 20cm }
+            seam gore[i].end -> gore[mod(i, 3) + 1].start
+        }
+        seam gore[1..3].top -> tube.hem
+        place forms before lady.waist; place tube before lady.hip
+        check forms.dip.length = 52mm within 1um
+        check forms.scye.length = arc(3cm, 180deg) within 1um
+        check forms.eye.length = arc(2cm, 360deg) within 1um
+        check tube.side.length = 12cm within 1um
+    }";
+    let garment = sound(text, &[]).remove(0);
+    assert_eq!(garment.panels.len(), 6);
+    let [left, right] = [&garment.panels[0], &garment.panels[1]];
+    assert_eq!((left.name.as_str(), right.name.as_str()), ("forms.left", "forms.right"));
+    for (a, b) in left.edges.iter().zip(&right.edges) {
+        assert!((length(&a.runs) - length(&b.runs)).abs() < 1e-12, "{}", a.name);
+    }
+    // The legs of the dart are equal although its tip lies to one side.
+    for seam in garment.seams.iter().filter(|seam| seam.name.contains("dart")) {
+        let [a, b] = [&seam.a, &seam.b].map(|runs| length(runs.iter().map(|run| &run.run)));
+        assert!((a - b).abs() < 1e-12);
+    }
+    assert_eq!(left.notches.len(), 1);
+    assert!((left.notches[0].inward[1] - 1.0).abs() < 1e-9, "the hem's notch points up");
+}
+
+/// A sleeve sewn into its armhole: the front of the cap comes to the front, on both sides.
+#[test]
+fn the_faces_of_the_cloth_direct_a_seam() {
+    let text =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/tunic.garment"))
+            .unwrap();
+    let garment = sound(&text, &[]).remove(0);
+    let name = |panel: usize| garment.panels[panel].name.as_str();
+    for side in ["left", "right"] {
+        let seam = garment
+            .seams
+            .iter()
+            .find(|seam| seam.name.contains(&format!("back.{side}.armhole")))
+            .unwrap();
+        let sleeve = format!("sleeve.{side}");
+        assert_eq!([name(seam.a[0].panel), name(seam.a[1].panel)], ["back", "front"]);
+        assert!(seam.b.iter().all(|run| name(run.panel) == sleeve));
+        // Walked together, the cloth of one lies to the left and of the other to the right.
+        let left = |run: &Run| run.to > run.from;
+        assert!(seam.a.iter().all(|run| left(&run.run) != left(&seam.b[0].run)));
+    }
+    // The same cap with its halves exchanged would twist.
+    let (world, _, told) = worked(&text.replace("pair as right, left", "pair as left, right"), &[]);
+    assert_eq!(codes(&told), ["E0502"], "{}", render::report(&told, &world, false, 100));
+}

@@ -371,7 +371,11 @@ impl<'t> Evaluator<'t> {
                             scope: inner,
                         };
                         let matched = self.match_phrase(word, written);
-                        if kind != Kind::Outline {
+                        // Labels of edges, and of round holes, are names of edges.
+                        let round = matched.as_ref().is_some_and(|phrase| {
+                            phrase.word.name == "hole" && phrase.block.is_none()
+                        });
+                        if kind != Kind::Outline && !round {
                             self.declare(outer, &key.text, key.span, inner, What::Label);
                         }
                         return matched;
@@ -388,7 +392,7 @@ impl<'t> Evaluator<'t> {
                     };
                     return self.match_phrase(word, written);
                 }
-                self.tell_unknown_property(kind, key, action);
+                self.tell_unknown_property(kind, key, action.filter(|_| phrase.len() > 1));
                 None
             }
             StatementKind::Line { word: name, phrase, block } => {
@@ -433,11 +437,13 @@ impl<'t> Evaluator<'t> {
             return;
         }
         if let Some(action) = action {
+            // `shaping: pleet on …`: the label may be any name, the word after it is wrong; unless
+            // the label itself is nearly a property of the block.
             let near = crate::diagnostic::spelling::nearest(
-                &action.text,
+                &key.text,
                 table.words.iter().map(|word| word.name),
             );
-            if kind == Kind::Outline || near.is_some() {
+            if kind == Kind::Outline || near.is_none() {
                 let label = self.meant(&action.text, table.words.iter().map(|word| word.name));
                 self.tell(
                     Diagnostic::new(

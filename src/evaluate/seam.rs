@@ -6,7 +6,8 @@
 //! walked in the order in which it is named; whether its cloth then lies to the left follows
 //! from how its edges join, on the panel or through other seams. Where that leaves both ways
 //! open (a ring of two), the other side of the seam decides, so that the first named meets the
-//! first named.
+//! first named; if then what is high in one drawing would meet what is low in the other, the
+//! seam is twisted.
 
 use super::Evaluator;
 use super::fields::{Arg, Phrase, bare};
@@ -21,6 +22,9 @@ use kurbo::Point;
 
 /// Lengths may differ by so much, m, or by this share of the longer one.
 const TOLERANCE: (f64, f64) = (1e-3, 2e-3);
+
+/// Rows of a ring that bend by so much, m, one upwards and one downwards, are twisted.
+const TWIST: f64 = 0.02;
 
 /// Ends of edges nearer than this are one corner, m.
 const CORNER: f64 = 1e-4;
@@ -114,6 +118,18 @@ impl Corners {
         row.windows(2)
             .all(|pair| self.joined(pair[0].walked(cloth_left).1, pair[1].walked(cloth_left).0))
     }
+}
+
+/// How much higher, in the drawings, the inner corners of a row lie than its ends, m; 0 for a
+/// single edge.
+fn rise(row: &[Element], cloth_left: bool) -> f64 {
+    let (Some((last, others)), Some(first)) = (row.split_last(), row.first()) else { return 0.0 };
+    if others.is_empty() {
+        return 0.0;
+    }
+    let inner: f64 = others.iter().map(|element| element.walked(cloth_left).1.1.y).sum();
+    let ends = first.walked(cloth_left).0.1.y + last.walked(cloth_left).1.1.y;
+    inner / others.len() as f64 - ends / 2.0
 }
 
 fn length(row: &[Element]) -> f64 {
@@ -327,10 +343,21 @@ impl<'t> Evaluator<'t> {
         let (a, b) = (ways(&seam.a), ways(&seam.b));
         // Side b as it asks side a to be.
         let b = if turned { b } else { (b.1, b.0) };
-        match (a.0 && b.0, a.1 && b.1) {
+        let found = match (a.0 && b.0, a.1 && b.1) {
             (true, _) => Some(true),
             (false, true) => Some(false),
-            (false, false) => {
+            (false, false) => None,
+        };
+        // A ring of two joins either way; the side seam and the shoulder tell them apart by
+        // height alone.
+        let upright = found.is_none_or(|left| {
+            let ring = a == (true, true) || b == (true, true);
+            let (a, b) = (rise(&seam.a, left), rise(&seam.b, left == turned));
+            !ring || a * b > -TWIST * TWIST || a.abs() < TWIST || b.abs() < TWIST
+        });
+        match found {
+            Some(left) if upright => Some(left),
+            _ => {
                 let (first, last) = (seam.a.first()?, seam.b.last()?);
                 self.tell(
                     Diagnostic::new(

@@ -99,7 +99,8 @@ impl EdgeRef {
                 if b - a < 1e-7 {
                     return None;
                 }
-                let sense = if run.to > run.from { 1.0 } else { -1.0 };
+                // An edge trued to a dart is a little longer or shorter than it was on the flat.
+                let sense = (run.to - run.from) / (end - start);
                 // Whole ends stay as they are to the last bit.
                 let cut_from = if a <= *start { run.from } else { run.from + sense * (a - start) };
                 let cut_to = if b >= *end { run.to } else { run.from + sense * (b - start) };
@@ -139,7 +140,7 @@ impl EdgeRef {
             .find(|(_, (_, end))| at <= *end + 1e-9)
             .or_else(|| edge.runs.last())?;
         let along = (at - start).clamp(0.0, end - start);
-        let sense = if run.to > run.from { 1.0 } else { -1.0 };
+        let sense = (run.to - run.from) / (end - start);
         let point = piece.point(run, run.from + sense * along);
         Some(Mark { draft: self.draft.clone(), piece: found.piece, at: [point.x, point.y] })
     }

@@ -348,59 +348,39 @@ impl<'t> Evaluator<'t> {
                     .help("a dart must leave at least 0.1 mm of the edge on both sides"),
             );
         };
-        let (mouth, tip) = if let Some(to) = phrase.value("to") {
+        let mouth = (middle - width / 2.0, middle + width / 2.0);
+        if !fits(mouth.0, mouth.1) {
+            beyond(self);
+            return None;
+        }
+        let (a, _) = curve::at(&edge.path, mouth.0);
+        let (b, _) = curve::at(&edge.path, mouth.1);
+        let (corners, tip) = if let Some(to) = phrase.value("to") {
             let [x, y] = self.point(to)?;
             let tip = Point::new(x, y);
-            // Slide the mouth along the edge until both legs are equal.
-            let legs = |a: f64| {
-                let (p, _) = curve::at(&edge.path, a);
-                let (q, _) = curve::at(&edge.path, a + width);
-                libm::hypot(p.x - x, p.y - y) - libm::hypot(q.x - x, q.y - y)
-            };
-            let (mut low, mut high) = (middle - width, middle);
-            if !fits(low, high + width) || legs(low) * legs(high) > 0.0 {
-                // Near a corner, or a tip far to one side: keep the mouth about its middle.
-                low = middle - width / 2.0;
-                high = low;
-                if !fits(low, low + width) {
-                    beyond(self);
-                    return None;
-                }
-                if legs(low).abs() > 1e-3 {
-                    self.tell(
-                        Diagnostic::new("E0406", "the legs of this dart cannot be made equal")
-                            .at(
-                                phrase.span,
-                                format!("they differ by {}", units::length(legs(low).abs())),
-                            )
-                            .at(to.expr.span, "the tip")
-                            .help("move the tip nearer to the middle of the mouth, or use `depth`"),
-                    );
-                    return None;
-                }
-            }
-            let falling = legs(low) > 0.0;
-            for _ in 0..60 {
-                let half = 0.5 * (low + high);
-                if (legs(half) > 0.0) == falling { low = half } else { high = half }
-            }
-            ((low, low + width), tip)
-        } else {
-            let depth = self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
-            let mouth = (middle - width / 2.0, middle + width / 2.0);
-            if !fits(mouth.0, mouth.1) {
-                beyond(self);
+            // Both legs get the mean of their lengths; the edge is trued to them.
+            let (first, second) = (a - tip, b - tip);
+            let (p, q) = (libm::hypot(first.x, first.y), libm::hypot(second.x, second.y));
+            let leg = 0.5 * (p + q);
+            if leg < 1e-3 || (p - q).abs() > 0.4 * leg.min(length) {
+                self.tell(
+                    Diagnostic::new("E0406", "the legs of this dart cannot be made equal")
+                        .at(phrase.span, format!("they differ by {}", units::length((p - q).abs())))
+                        .at(to.expr.span, "the tip")
+                        .help("move the tip nearer to the middle of the mouth, or use `depth`"),
+                );
                 return None;
             }
-            let (a, _) = curve::at(&edge.path, mouth.0);
-            let (b, _) = curve::at(&edge.path, mouth.1);
+            ((tip + first * (leg / p), tip + second * (leg / q)), tip)
+        } else {
+            let depth = self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
             let across = b - a;
             let size = libm::hypot(across.x, across.y).max(f64::MIN_POSITIVE);
             let left = Vec2::new(-across.y / size, across.x / size);
             let foot = a.midpoint(b);
             let near = foot + left * 1e-3;
             let inward = if inside(near) { left } else { -left };
-            (mouth, foot + inward * depth)
+            ((a, b), foot + inward * depth)
         };
         if !inside(tip) {
             self.tell(
@@ -410,7 +390,7 @@ impl<'t> Evaluator<'t> {
             );
             return None;
         }
-        Some((ring, place, Cut { name, span: phrase.span, mouth, tip }))
+        Some((ring, place, Cut { name, span: phrase.span, mouth, corners, tip }))
     }
 
     fn notched(

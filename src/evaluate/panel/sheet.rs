@@ -56,6 +56,8 @@ pub struct Cut {
     pub name: String,
     pub span: Span,
     pub mouth: (f64, f64),
+    /// Where its legs begin: on the edge, or as far from the tip as each other beside it.
+    pub corners: (Point, Point),
     pub tip: Point,
 }
 
@@ -88,29 +90,24 @@ impl Sheet {
             let mut from = 0.0;
             let none = Vec::new();
             let darts = cuts.get(place).unwrap_or(&none);
+            let mut begin = curve::start(&edge.path);
             for dart in darts {
                 let (a, b) = dart.mouth;
                 if a - from > 1e-7 {
-                    stretches.push(Stretch {
-                        ring,
-                        piece: pieces.len(),
-                        reversed: false,
-                        flat: (from, a),
-                    });
-                    pieces.push(curve::part(&edge.path, from, a));
+                    let flat = (from, a);
+                    stretches.push(Stretch { ring, piece: pieces.len(), reversed: false, flat });
+                    pieces.push(trued(&edge.path, flat, begin, dart.corners.0));
                 }
-                let (start, _) = curve::at(&edge.path, a);
-                let (end, _) = curve::at(&edge.path, b);
                 let first = pieces.len();
-                pieces.push(curve::line(start, dart.tip));
-                pieces.push(curve::line(dart.tip, end));
+                pieces.push(curve::line(dart.corners.0, dart.tip));
+                pieces.push(curve::line(dart.tip, dart.corners.1));
                 self.darts.push(Dart {
                     name: dart.name.clone(),
                     half: None,
                     span: dart.span,
                     legs: [(ring, first, false), (ring, first + 1, true)],
                 });
-                from = b;
+                (from, begin) = (b, dart.corners.1);
             }
             if darts.is_empty() && curve::start(&edge.path) == curve::end(&edge.path) {
                 // A closed edge gets four corners that are none, so that it begins nowhere.
@@ -130,7 +127,7 @@ impl Sheet {
                 pieces.push(if darts.is_empty() {
                     edge.path.clone()
                 } else {
-                    curve::part(&edge.path, from, length)
+                    trued(&edge.path, (from, length), begin, curve::end(&edge.path))
                 });
             }
             if let Some(name) = &edge.name {
@@ -314,6 +311,34 @@ impl Sheet {
             })
             .collect()
     }
+}
+
+/// The part of an edge between two places, swung and stretched a little so that it goes from
+/// `start` to `end`: an edge is trued to the ends of the legs of its darts.
+fn trued(path: &BezPath, (from, to): (f64, f64), start: Point, end: Point) -> BezPath {
+    let part = curve::part(path, from, to);
+    let (a, b) = (curve::start(&part), curve::end(&part));
+    let (old, new) = (b - a, end - start);
+    let squared = old.x * old.x + old.y * old.y;
+    let mut part = if squared > 1e-12 {
+        // new = z · old as complex numbers.
+        let (re, im) =
+            ((new.x * old.x + new.y * old.y) / squared, (new.y * old.x - new.x * old.y) / squared);
+        let map = Affine::new([
+            re,
+            im,
+            -im,
+            re,
+            start.x - re * a.x + im * a.y,
+            start.y - im * a.x - re * a.y,
+        ]);
+        curve::mapped(&part, map)
+    } else {
+        part
+    };
+    curve::start_at(&mut part, start);
+    curve::end_at(&mut part, end);
+    part
 }
 
 /// Makes each piece begin exactly where the one before it ends.
