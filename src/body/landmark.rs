@@ -189,11 +189,11 @@ fn add_armholes(found: &mut BTreeMap<String, Landmark>, form: &Form, surface: &S
     let out = Vector3::new(chord.y, -chord.x, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
     let centre = below + chord / 2.0;
     let station = Station { name: "armhole", measure: None, zone: Zone::Arm, centre, axis: -out };
-    for (side, name, sign) in [("left", "left_arm", 1.0), ("right", "right_arm", -1.0)] {
+    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
         add_ring(found, surface, format!("armhole.{side}"), station, sign);
         let point = |p: Point3<f64>| Landmark::Point(Point3::from(sided(p.coords, sign)));
         found.insert(format!("shoulder.{side}"), point(top));
-        found.insert(name.to_owned(), point(hollow));
+        found.insert(format!("underarm.{side}"), point(hollow));
     }
 }
 

@@ -2,16 +2,20 @@
 
 pub mod air;
 pub mod bending;
+pub mod boxes;
 pub mod cloth;
 pub mod conjugate;
+pub mod crossing;
 pub mod draped;
 pub mod elastic;
 pub mod hold;
 pub mod ladder;
+pub mod layers;
 pub mod matrix;
 pub mod membrane;
 pub mod place;
 pub mod precondition;
+pub mod proximity;
 pub mod schedule;
 pub mod sewing;
 pub mod shear;

@@ -52,7 +52,7 @@ pub fn sew(
             since = 0;
         } else {
             since += 1;
-            if since >= 20 {
+            if since >= 8 {
                 strength = (strength * 1.6).min(200.0);
                 since = 0;
             }
@@ -65,6 +65,7 @@ pub fn sew(
             grip: 0.05,
             sewing: strength,
             near: 0.008,
+            layers: false,
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
         add(&mut course, taken);

@@ -1,5 +1,6 @@
 //! The account of a drape: strains, gaps, depths, speeds, verdict. Measured on the result alone.
 
+use super::crossing;
 use super::draped::Stats;
 use super::skin::Skin;
 use crate::mesh::compiled::Compiled;
@@ -16,6 +17,7 @@ pub fn measure(compiled: &Compiled, x: &[Vector3<f64>], skin: &dyn Skin) -> Stat
         threads: rayon::current_num_threads(),
         ..Stats::default()
     };
+    stats.self_intersections = crossing::count(compiled, x);
     strains(compiled, x, &mut stats);
     for pair in compiled.seams.iter().flat_map(|s| &s.pairs) {
         let [a, b] = pair.map(|p| x[p as usize]);

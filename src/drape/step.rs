@@ -9,6 +9,7 @@ use super::cloth::Cloth;
 use super::conjugate::{self, Aim, Space};
 use super::elastic;
 use super::hold::Holds;
+use super::layers::{Layers, Touches};
 use super::matrix::{Block, Lane, Matrix, add, add_scalar, lane, vector};
 use super::precondition::Factor;
 use super::sewing::Sewing;
@@ -35,6 +36,8 @@ pub struct Manner {
     pub sewing: f64,
     /// Farthest movement of a knot near skin in one step, m.
     pub near: f64,
+    /// Whether layers of cloth are kept apart.
+    pub layers: bool,
     /// When the linear solution is good enough.
     pub aim: Aim,
 }
@@ -49,6 +52,7 @@ impl Default for Manner {
             grip: 1.0,
             sewing: 0.0,
             near: 0.01,
+            layers: true,
             aim: Aim { tolerance: 1e-2, most: 400 },
         }
     }
@@ -65,6 +69,10 @@ pub struct Taken {
     pub iterations: usize,
     /// Whether all pins are in their places.
     pub pinned: bool,
+    /// Contacts of cloth with cloth.
+    pub touches: usize,
+    /// Knots whose movement was cut short lest cloth pass through cloth.
+    pub cut: usize,
 }
 
 /// No step however short gave finite numbers.
@@ -85,6 +93,10 @@ pub struct Workshop<'a> {
     pub holds: Holds,
     /// Contact with skin.
     pub contact: Contact,
+    /// Contact of cloth with cloth; taken up with the first step that asks for it.
+    layers: Option<Layers>,
+    /// Steps until tangles are looked for again.
+    until_look: u32,
     skin: &'a dyn Skin,
     matrix: Matrix,
     factor: Factor,
@@ -95,6 +107,9 @@ pub struct Workshop<'a> {
 
 /// Most times a step is halved.
 const HALVINGS: u32 = 8;
+
+/// Steps from one search for tangles to the next, while there are any.
+const LOOK: u32 = 5;
 
 /// Most times a step is solved again for contact it ran into.
 const PASSES: usize = 3;
@@ -137,6 +152,8 @@ impl<'a> Workshop<'a> {
             sewing,
             holds,
             contact,
+            layers: None,
+            until_look: 0,
             skin,
             matrix,
         }
@@ -184,10 +201,22 @@ impl<'a> Workshop<'a> {
             speeds.iter().map(|v| v * dt + down * (dt * dt)).collect();
         // Friction is judged by the last step's movement: gravity's own share is not slid yet.
         let mut slide: Vec<Vector3<f64>> = speeds.iter().map(|v| v * dt).collect();
+        let mut touches = Touches::default();
+        let mut layers = self.layers.take().filter(|_| manner.layers);
+        if manner.layers {
+            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, &start));
+            if layers.any_tangled() {
+                self.until_look = self.until_look.checked_sub(1).unwrap_or_else(|| {
+                    layers.find_tangles(&start);
+                    LOOK
+                });
+            }
+            touches = layers.touch(&self.cloth, &start, &slide);
+        }
         let mut iterations = 0;
         for pass in 0..PASSES {
             let pushes = self.contact.push(&self.cloth, &start, &ahead, &slide, manner.grip);
-            let b = self.load(&base, &pushes);
+            let b = self.load(&base, &pushes, &touches);
             // Solved from the last step's movement, and the fall as far as nothing holds it up.
             let fallen = if pass == 0 { down * (dt * dt) } else { Vector3::zeros() };
             let mut fall = vec![fallen; start.len()];
@@ -199,11 +228,12 @@ impl<'a> Workshop<'a> {
             let fall: Vec<Lane> = fall.iter().map(lane).collect();
             if pass == 0 {
                 self.matrix.close();
+                touches.stiffen(&mut self.matrix);
                 self.factor.refresh(&self.matrix);
             }
             iterations += conjugate::solve(
                 &self.matrix,
-                &(),
+                &touches,
                 &mut self.factor,
                 &self.holds.held,
                 &b,
@@ -214,15 +244,23 @@ impl<'a> Workshop<'a> {
             );
             ahead = self.dx.iter().map(vector).collect();
             if ahead.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
+                self.layers = layers;
                 return None;
             }
-            if !self.contact.runs_into(&self.cloth, &start, &ahead, &pushes) {
+            let on_skin = self.contact.runs_into(&self.cloth, &start, &ahead, &pushes);
+            let on_cloth = pass + 1 < PASSES
+                && layers
+                    .as_ref()
+                    .is_some_and(|l| l.catch(&self.cloth, &start, &ahead, &mut touches));
+            if !on_skin && !on_cloth {
                 break;
             }
             slide.copy_from_slice(&ahead);
         }
         let share = self.bound(&start, &mut ahead, manner);
         let dt = dt * share;
+        let cut = layers.as_ref().map_or(0, |l| l.guard(&start, &mut ahead));
+        self.layers = layers;
         self.contact.settle(&self.cloth, &start, &ahead);
         let mut speed = 0.0f64;
         for (i, dx) in ahead.iter().enumerate() {
@@ -234,7 +272,7 @@ impl<'a> Workshop<'a> {
         for v in &self.v {
             speed = speed.max(v.norm());
         }
-        Some(Taken { time: dt, speed, iterations, pinned })
+        Some(Taken { time: dt, speed, iterations, pinned, touches: touches.len(), cut })
     }
 
     /// Shortens a movement that goes too far near skin: the whole of it as far as one knot
@@ -308,15 +346,17 @@ impl<'a> Workshop<'a> {
         &mut self,
         base: &(Vec<Block>, Vec<Vector3<f64>>),
         pushes: &[Option<Push>],
+        touches: &Touches,
     ) -> Vec<Lane> {
         self.matrix.own.copy_from_slice(&base.0);
-        let mut b: Vec<Lane> = base.1.iter().map(lane).collect();
+        let mut force = base.1.clone();
         for (i, push) in pushes.iter().enumerate() {
-            if let Some((force, k)) = push {
+            if let Some((f, k)) = push {
                 add(&mut self.matrix.own[i], k);
-                b[i] = lane(&(base.1[i] + force));
+                force[i] += f;
             }
         }
-        b
+        touches.push(&mut force);
+        force.iter().map(lane).collect()
     }
 }

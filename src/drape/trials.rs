@@ -163,8 +163,10 @@ fn handkerchief(cells: usize, seconds: f64) -> (Vec<Vector3<f64>>, Compiled) {
         its += taken.iterations;
         if steps % 40 == 0 {
             println!(
-                "t {time:.3} speed {:.3} low {:.3}",
+                "t {time:.3} speed {:.3} touches {} cut {} low {:.3}",
                 taken.speed,
+                taken.touches,
+                taken.cut,
                 shop.x.iter().map(|x| x.y).fold(9.0, f64::min)
             );
         }
@@ -178,6 +180,7 @@ fn handkerchief(cells: usize, seconds: f64) -> (Vec<Vector3<f64>>, Compiled) {
         stats.largest_weft_strain,
         stats.deepest_penetration
     );
+    println!("crossings {}", stats.self_intersections);
     (shop.positions(), compiled)
 }
 

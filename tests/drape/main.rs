@@ -1,0 +1,50 @@
+//! Garments on a body, from panels to rest.
+
+mod pattern;
+
+use darzi::drape::draped::Draped;
+use darzi::drape::{Options, drape};
+use darzi::garment::Garment;
+use darzi::mesh::compiled::Compiled;
+use darzi::mesh::{self, compile};
+use darzi::progress::{Progress, Quiet};
+
+struct Loud;
+impl Progress for Loud {
+    fn stage(&mut self, name: &str) {
+        println!("-- {name}");
+    }
+    fn share(&mut self, done: f64, note: &str) {
+        use std::sync::atomic::{AtomicUsize, Ordering};
+        static N: AtomicUsize = AtomicUsize::new(0);
+        if N.fetch_add(1, Ordering::Relaxed) % 10 == 0 {
+            println!("{done:.3} {note}");
+        }
+    }
+}
+
+fn dress(garment: &Garment, cells: &[f64]) -> (Compiled, Draped) {
+    let rungs: Vec<Compiled> = cells
+        .iter()
+        .map(|&cell| {
+            compile(garment, &mesh::Options { cell: Some(cell), ..Default::default() })
+                .expect("compiles")
+        })
+        .collect();
+    let draped = drape(&rungs, &Options::default(), &mut Loud).expect("drapes");
+    println!("{:#?}", draped.stats);
+    (rungs.last().expect("one").clone(), draped)
+}
+
+fn picture(name: &str, compiled: &Compiled, draped: &Draped) {
+    let options = darzi::render::Options { paths: 6, ..Default::default() };
+    let image = darzi::render::render(compiled, draped, &pattern::picture(), &options, &mut Quiet);
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
+    image.save(path).expect("saved");
+}
+
+#[test]
+fn a_skirt_hangs_on_the_waist() {
+    let (compiled, draped) = dress(&pattern::skirt(0.10), &[0.04, 0.02]);
+    picture("skirt", &compiled, &draped);
+}
