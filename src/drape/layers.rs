@@ -27,6 +27,10 @@ const THIN: f64 = 1.0e-3;
 /// The same as a share of the grid's cell: more would make a sheet repel itself.
 const SHARE: f64 = 0.3;
 
+/// Greatest slack of a list of near pairs, as a share of the grid's cell: neighbours in a flat
+/// sheet do not come on it.
+const SLACK: f64 = 0.2;
+
 /// Contact stiffness per area, N/m³.
 const STIFFNESS: f64 = 1.0e6;
 
@@ -127,6 +131,8 @@ pub struct Layers {
     owned: Vec<[bool; 6]>,
     /// Distance kept, m.
     apart: f64,
+    /// Greatest slack, m.
+    widest: f64,
     /// Pairs of features that may come near each other, while the knots have not moved on.
     pairs: Vec<Pair>,
     /// Places for which the pairs were found.
@@ -166,6 +172,7 @@ impl Layers {
             faces,
             owned,
             apart: thickest.max(THIN).min(SHARE * cloth.cell),
+            widest: SLACK * cloth.cell,
             slack: -1.0,
             tangled: vec![false; cloth.knots()],
             ..Layers::default()
@@ -254,8 +261,14 @@ impl Layers {
         };
         if self.slack < 0.0 || moved > self.slack {
             let step = fastest(ahead);
-            self.slack = (3.0 * step).clamp(0.3 * self.apart, 2.0 * self.apart);
-            self.pairs = self.find(x, None, 0.5 * self.apart + self.slack);
+            self.slack = (4.0 * step).clamp(0.5 * self.apart, self.widest);
+            let reach = self.apart + 2.0 * self.slack;
+            self.pairs = self.find(x, None, 0.5 * reach);
+            self.pairs = std::mem::take(&mut self.pairs)
+                .into_par_iter()
+                .with_min_len(1024)
+                .filter(|p| p.way(&p.knots().map(|k| x[k as usize])).norm() <= reach)
+                .collect();
             self.at = x.to_vec();
         }
         let touches = self

@@ -127,6 +127,7 @@ pub fn dress(
         let seams = || compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
         let weld = Weld::new(compiled.particles.len(), seams().filter(|_| sewn));
         let mut shop = Workshop::new(compiled, surfaces, skin, weld, &start);
+        let mut fresh = rung == 0;
         let mut sewn = sewn;
         let phases = if fine { &finest.schedule[..] } else { &finest.schedule[..prefix] };
         for phase in phases {
@@ -160,7 +161,7 @@ pub fn dress(
                     } else {
                         (speed * 5.0, within.min(6.0))
                     };
-                    let course = schedule::settle(&mut shop, speed, within, options.air, progress);
+                    let course = schedule::settle(&mut shop, (speed, within), fresh, options.air, progress);
                     if let (true, Ok(course)) = (fine, course)
                         && !course.reached
                     {
@@ -169,6 +170,7 @@ pub fn dress(
                             course.speed * 1e3
                         ));
                     }
+                    fresh = false;
                     ("settle", course)
                 }
                 Phase::Run { time, rate, .. } => {

@@ -25,6 +25,9 @@ const SEWING_STEPS: usize = 600;
 /// Time for which falling is left to itself, s, so that folds form as they would.
 const FREE: f64 = 0.8;
 
+/// Time over which a speed is measured, s.
+const WINDOW: f64 = 0.25;
+
 /// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m.
 ///
 /// # Errors
@@ -76,64 +79,63 @@ pub fn sew(
     Ok(course)
 }
 
-/// Lets the cloth come to rest: until nothing moves faster than `speed`, m/s, from one stop to
-/// the next, twice running, or `within` seconds of its own time have passed.
+/// Lets the cloth come to rest: until nothing moves faster than `speed`, m/s, for half a second, or `within` seconds of its own time have passed. `fresh` cloth has not hung yet.
 ///
 /// # Errors
 /// [`Stuck`] from the step.
 pub fn settle(
     shop: &mut Workshop<'_>,
-    speed: f64,
-    within: f64,
+    (speed, within): (f64, f64),
+    fresh: bool,
     air: f64,
     progress: &mut dyn Progress,
 ) -> Result<Course, Stuck> {
     let mut course = Course::default();
     let most = ((within * 60.0) as usize).clamp(1, 40_000) * 2;
     // Whenever the energy of movement has passed a peak the cloth is stopped: that is where the
-    // mode which moved most has passed its rest (kinetic damping, Cundall 1976; Barnes 1999). It is
-    // at rest when it does not become fast even at such a peak.
+    // mode which moved most has passed its rest (kinetic damping, Cundall 1976; Barnes 1999). Speeds
+    // are taken from the way made in a while, in which the stops and what trembles do not count.
     let mut before = 0.0;
     let mut rising = true;
-    let mut peak = 0.0f64;
+    let mut mark = (0.0, shop.x.clone());
     let mut small = 0;
+    let mut speed_now = f64::INFINITY;
     while course.time < within && course.steps < most {
-        let free = course.time < FREE;
+        let free = fresh && course.time < FREE;
         let taken = shop.step(&Manner {
             dt: if free { 1.0 / 60.0 } else { 1.0 / 30.0 },
             air,
             calm: if free { 0.5 } else { 1.0 },
             sewing: 1.0,
-            aim: Aim { tolerance: 1e-2, most: 300 },
+            aim: Aim { tolerance: 2e-2, most: 300 },
             ..Manner::default()
         })?;
         add(&mut course, taken);
-        peak = peak.max(taken.speed);
         let now = shop.movement();
         if now < before && rising && !free {
-            small = if peak < speed && taken.pinned { small + 1 } else { 0 };
-            if small >= 2 {
-                course.reached = true;
-                course.speed = peak;
-                break;
-            }
             shop.stop();
-            rising = true;
             before = 0.0;
-            peak = 0.0;
         } else {
             rising = free || now >= before;
             before = now;
         }
-        let slow = (taken.speed / speed.max(1e-5)).max(1.0);
+        if course.time - mark.0 >= WINDOW {
+            let far = shop.x.iter().zip(&mark.1).map(|(x, m)| (x - m).norm()).fold(0.0, f64::max);
+            speed_now = far / (course.time - mark.0);
+            mark = (course.time, shop.x.clone());
+            small = if speed_now < speed && taken.pinned && !free { small + 1 } else { 0 };
+            if small >= 2 {
+                course.reached = true;
+                break;
+            }
+        }
+        let slow = (speed_now / speed.max(1e-5)).clamp(1.0, 1e6);
         progress.share(
             (course.time / within).max(1.0 - (slow.ln() / 8.0).min(1.0)).min(1.0),
-            &format!("{:.1} mm/s", taken.speed * 1e3),
+            &format!("{:.1} mm/s", speed_now.min(taken.speed) * 1e3),
         );
     }
-    if !course.reached {
-        course.speed = course.speed.max(peak);
-    }
+    course.speed = course.speed.min(speed_now);
     Ok(course)
 }
 
