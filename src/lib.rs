@@ -37,4 +37,4 @@ pub mod render;
 
 pub mod export;
 
-// pub mod cli;
+pub mod cli;

@@ -1,3 +1,5 @@
 //! The `darzi` program.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    darzi::cli::main()
+}

@@ -1,6 +1,7 @@
 //! What people read when a text is wrong: one transcript for each kind of mistake.
 
 use darzi::diagnostic::{Diagnostic, json, render};
+use darzi::evaluate::{Options, evaluate};
 use darzi::syntax::parse;
 use darzi::world::{Memory, World};
 use std::fs;
@@ -19,6 +20,17 @@ fn transcripts() {
     insta::glob!("data/errors/*.garment", |path| {
         let (world, told) = told(path);
         insta::assert_snapshot!(render::report(&told, &world, false, 80));
+    });
+}
+
+#[test]
+fn transcripts_of_words() {
+    insta::glob!("data/words/*.garment", |path| {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let mut world = Memory::new([(name.clone(), fs::read_to_string(path).unwrap())]);
+        let file = world.open(&name).unwrap();
+        let (_, told) = evaluate(&mut world, file, &Options::default());
+        insta::assert_snapshot!(render::report(&told, &world, false, 100));
     });
 }
 

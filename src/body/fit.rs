@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Rounds of measuring and correcting.
-const ROUNDS: usize = 14;
+const ROUNDS: usize = 20;
 /// A girth within this of the asked one is right, m.
 const CLOSE: f64 = 2e-4;
 /// A girth further off than this is refused, m.
@@ -57,6 +57,7 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
     };
     let mut corrections: Corrections = names.iter().map(|name| (*name, 1.0)).collect();
     let mut form = Form::new(request, measures, &corrections)?;
+    let mut last = None;
     for round in 0..=ROUNDS {
         let all = stations(request.figure, &form);
         let found: Vec<(&'static str, f64)> = names
@@ -76,9 +77,14 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
         for (name, girth) in found {
             let Some(factor) = corrections.get_mut(name) else { continue };
             if name == "bust" {
-                // Moving the front out by one lengthens the tape by nearly two.
-                *factor += 0.55 * off(name, girth) / BREAST_STAND;
-                *factor = factor.clamp(0.0, 2.0);
+                // Moving the front out by one lengthens the tape by about two; the last move
+                // tells how much here.
+                let gain = last.map_or(1.8, |(stood, taped): (f64, f64)| {
+                    (girth - taped) / ((*factor - stood) * BREAST_STAND)
+                });
+                last = Some((*factor, girth));
+                let gain = if gain.is_finite() { gain.clamp(0.4, 4.0) } else { 1.8 };
+                *factor = (*factor + off(name, girth) / (gain * BREAST_STAND)).clamp(0.0, 2.5);
             } else {
                 let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
                 *factor = (*factor * libm::pow(ratio, 1.15)).clamp(0.3, 3.0);
@@ -114,7 +120,9 @@ fn refuse(
 /// Girth of the form at a station, m.
 fn felt(form: &Form, station: &Station) -> f64 {
     let value = |p: Point3<f64>| match station.zone {
-        Zone::Trunk | Zone::Leg => form.without_arms(p),
+        Zone::Trunk => form.without_arms(p),
+        // The other leg lies beyond the middle plane.
+        Zone::Leg => form.without_arms(p).max(-p.x),
         Zone::Arm => form.left_arm(p),
     };
     let u = any_across(station.axis);

@@ -178,7 +178,7 @@ impl Form {
         let acromion =
             Point3::new(side_of_neck + across, levels[6], (table.shoulder()[4] + 0.002) * size);
 
-        let trunk = trunk(request.figure, table, &levels, &scale, acromion.x, size);
+        let trunk = trunk(request.figure, table, &levels, measures, &scale, acromion.x, size);
         let neck = neck(table, root, scale("neck"), size, height - nape);
         let (skull, face) = head(height, nape, scale("head"), size);
         let chest = chest(request.figure, table, &levels, measures, &trunk, corrections, size);
@@ -225,6 +225,8 @@ impl Form {
         let q = Point3::new((p.x * p.x + soft * soft).sqrt(), p.y, p.z);
         let size = self.size;
         let mut value = self.trunk.value(p) + self.furrow(p);
+        // The trunk ends in a rounded bottom between the legs.
+        value = -join(-value, p.y - self.levels[0], 0.075 * size);
         value = join(value, self.chest.value(q), self.chest_blend);
         value = join(value, self.seat.value(q), self.seat_blend);
         value = join(value, self.neck.value(p), 0.035 * size);
@@ -232,7 +234,7 @@ impl Form {
         value = join(value, head, 0.02 * size);
         value = join(value, self.left_leg(q), 0.032 * size);
         // Flat soles.
-        -join(-value, p.y, 0.006 * size)
+        -join(-value, p.y, 0.014 * size)
     }
 
     /// Depth of the furrow along the spine at `p`, m.
@@ -395,6 +397,7 @@ fn trunk(
     figure: Figure,
     table: &Template,
     levels: &[f64; STATIONS],
+    measures: &Measures,
     scale: &impl Fn(&'static str) -> f64,
     acromion: f64,
     size: f64,
@@ -404,7 +407,12 @@ fn trunk(
     let shoulders = (acromion - 0.018 * size) / table.shoulder()[1];
     let (hip, waist, neck) = (scale("hip"), scale("waist"), scale("neck"));
     let (rib, chest) = match figure {
-        Figure::Female => (scale("underbust"), scale("underbust")),
+        Figure::Female => {
+            // A fuller bust is carried by a fuller trunk, in part.
+            let ribs = scale("underbust");
+            let fuller = measures.get("bust") / measures.get("underbust") * (0.75 / 0.88);
+            (ribs, ribs * fuller.sqrt())
+        }
         Figure::Male => ((scale("chest") + waist) / 2.0, scale("chest")),
     };
     let broad = Curve::new(
@@ -416,7 +424,7 @@ fn trunk(
         .trunk
         .iter()
         .map(|[s, breadth, front, back, middle, fullness]| {
-            // Stems beyond the stations, in tenths of a metre, end inside legs and neck.
+            // Stems beyond the stations end inside the neck and below the crotch.
             let beyond = s - s.clamp(0.0, (STATIONS - 1) as f64);
             let t = height.at(*s) + 0.1 * beyond * size;
             let (w, d) = (broad.at(*s), deep.at(*s));
@@ -437,7 +445,7 @@ fn trunk(
         &[levels[0] + 0.03 * size, levels[1] + 0.03 * size, levels[4], levels[6]],
         &[0.006 * size, 0.026 * size, 0.026 * size, 0.011 * size],
     );
-    Loft::new(frame, &rows, |t| sharp.at(t), [0.015 * size, 0.03 * size])
+    Loft::new(frame, &rows, |t| sharp.at(t), [0.03 * size, 0.03 * size])
 }
 
 /// The neck, from inside the trunk into the head.
@@ -490,7 +498,8 @@ fn chest(
             // Its size follows what the bust has more than the ribs; how far it stands out is
             // left to the tape.
             let gain = (measures.get("bust") - measures.get("underbust")) / 0.13;
-            let round = libm::cbrt(gain.clamp(0.3, 3.0));
+            let round =
+                libm::cbrt(gain.clamp(0.3, 3.0)) * (measures.get("underbust") / 0.75).sqrt();
             let stand = (corrections.get("bust").copied().unwrap_or(1.0) - 1.0) * BREAST_STAND;
             Egg {
                 middle: Point3::new(
@@ -498,7 +507,8 @@ fn chest(
                     level + middle[1] * size,
                     front + middle[2] * round + stand,
                 ),
-                radii: Vector3::from(radii) * round,
+                // Downwards it ends above the tape of the underbust.
+                radii: Vector3::new(radii[0] * round, radii[1] * round.min(1.05), radii[2] * round),
                 up: up * round,
             }
         }
@@ -539,7 +549,7 @@ fn leg(
     let wider = rows
         .iter()
         .filter(|row| row.t <= crotch)
-        .map(|row| row.u[1] + 0.011 * size - row.centre[0])
+        .map(|row| row.u[1] + 0.017 * size - row.centre[0])
         .fold(0.0, f64::max);
     for row in &mut rows {
         row.centre[0] += wider;
@@ -588,7 +598,7 @@ fn arm(
     chest_level: f64,
     size: f64,
 ) -> (Loft, [f64; 3], Loft) {
-    let joint = acromion + Vector3::new(-0.016, -0.050, 0.0) * size;
+    let joint = acromion + Vector3::new(-0.016, -0.045, 0.0) * size;
     let length = measures.get("arm_length") - 0.02 * size;
     let upper = scale("upper_arm");
     // The arm hangs far enough out to leave the widest part of the chest free.
@@ -615,7 +625,7 @@ fn arm(
     let hand = 0.18 * measures.get("height") / 1.68;
     let broad = (scale("wrist") + measures.get("height") / table.height) / 2.0;
     rows.extend(limb_rows(table.hand, |s| (length + s * hand, [broad; 2], size)));
-    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.1 * hand]);
+    let loft = Loft::new(frame, &rows, |_| 0.012 * size, [0.045 * upper, 0.12 * hand]);
 
     let way = (Vector3::z() * 0.55 + frame.along * 0.83).normalize();
     let base = frame.outward([0.052 * size, -0.002 * size, length + 0.32 * hand]);

@@ -182,17 +182,18 @@ fn add_armholes(found: &mut BTreeMap<String, Landmark>, form: &Form, surface: &S
         }
         y -= 0.002 * form.size;
     }
-    let top = tip + Vector3::y() * (skin(&value, tip, Vector3::y(), 0.005 * form.size));
+    let inner = tip - Vector3::y() * (0.03 * form.size);
+    let top = inner + Vector3::y() * skin(&value, inner, Vector3::y(), 0.005 * form.size);
     let below = hollow + form.arm_direction() * (0.008 * form.size);
     let chord = top - below;
     let out = Vector3::new(chord.y, -chord.x, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
     let centre = below + chord / 2.0;
     let station = Station { name: "armhole", measure: None, zone: Zone::Arm, centre, axis: -out };
-    for (side, name, sign) in [("left", "left_arm", 1.0), ("right", "right_arm", -1.0)] {
+    for (side, sign) in [("left", 1.0), ("right", -1.0)] {
         add_ring(found, surface, format!("armhole.{side}"), station, sign);
         let point = |p: Point3<f64>| Landmark::Point(Point3::from(sided(p.coords, sign)));
         found.insert(format!("shoulder.{side}"), point(top));
-        found.insert(name.to_owned(), point(hollow));
+        found.insert(format!("underarm.{side}"), point(hollow));
     }
 }
 

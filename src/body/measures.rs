@@ -5,13 +5,16 @@ use crate::diagnostic::Diagnostic;
 use crate::garment::scene::{BodyRequest, Figure};
 use std::collections::BTreeMap;
 
-/// What stands in for a measure that is not given.
+/// What stands in for a measure that is not given. Where there are two shares, the first is that
+/// of grown people, the second that of a child 1.15 m tall; between 1.5 m and 1.15 m they mix.
 #[derive(Clone, Copy, Debug)]
 enum Stand {
     /// A share of the height.
-    Height(f64),
+    Height(f64, f64),
     /// A share of another measure, named earlier in the table.
-    Of(&'static str, f64),
+    Of(&'static str, f64, f64),
+    /// A share of another measure and a share of the height: grows slower than the measure.
+    Mixed(&'static str, f64, f64),
     /// A fixed length and a share of the height.
     Grown(f64, f64),
     /// The sum of two measures named earlier.
@@ -26,51 +29,51 @@ type Entry = (&'static str, Stand, f64, f64);
 /// where it has them, for the rest the means of ANSUR II (Gordon et al. 2014, women) as shares of
 /// stature, hip or upper arm, rounded.
 const FEMALE: &[Entry] = &[
-    ("waist_to_floor", Stand::Height(0.625), 0.5, 0.72),
-    ("back_length", Stand::Height(0.244), 0.17, 0.34),
-    ("waist_to_hip", Stand::Height(0.119), 0.06, 0.19),
-    ("body_rise", Stand::Height(0.164), 0.11, 0.24),
-    ("armhole_depth", Stand::Height(0.12), 0.08, 0.19),
-    ("bust", Stand::Height(0.524), 0.36, 1.1),
-    ("underbust", Stand::Of("bust", 0.852), 0.3, 1.0),
-    ("waist", Stand::Of("bust", 0.818), 0.28, 1.1),
-    ("hip", Stand::Of("bust", 1.102), 0.38, 1.2),
-    ("neck", Stand::Of("bust", 0.409), 0.15, 0.36),
-    ("shoulder", Stand::Height(0.0726), 0.05, 0.11),
-    ("bust_depth", Stand::Of("back_length", 0.671), 0.1, 0.26),
-    ("bust_gap", Stand::Of("bust", 0.216), 0.06, 0.22),
-    ("upper_arm", Stand::Of("bust", 0.318), 0.1, 0.4),
-    ("elbow", Stand::Of("upper_arm", 0.87), 0.09, 0.32),
-    ("wrist", Stand::Of("upper_arm", 0.565), 0.06, 0.18),
-    ("arm_length", Stand::Height(0.351), 0.26, 0.44),
-    ("thigh", Stand::Of("hip", 0.58), 0.2, 0.62),
-    ("knee", Stand::Of("hip", 0.385), 0.13, 0.42),
-    ("calf", Stand::Of("hip", 0.372), 0.12, 0.42),
-    ("ankle", Stand::Of("hip", 0.23), 0.08, 0.24),
+    ("waist_to_floor", Stand::Height(0.625, 0.594), 0.5, 0.72),
+    ("back_length", Stand::Height(0.244, 0.236), 0.17, 0.34),
+    ("waist_to_hip", Stand::Height(0.119, 0.119), 0.06, 0.19),
+    ("body_rise", Stand::Height(0.164, 0.164), 0.11, 0.24),
+    ("armhole_depth", Stand::Height(0.12, 0.12), 0.08, 0.19),
+    ("bust", Stand::Height(0.524, 0.524), 0.36, 1.1),
+    ("underbust", Stand::Of("bust", 0.852, 0.96), 0.3, 1.0),
+    ("waist", Stand::Of("bust", 0.818, 0.93), 0.28, 1.1),
+    ("hip", Stand::Of("bust", 1.102, 1.07), 0.38, 1.2),
+    ("neck", Stand::Mixed("bust", 0.19, 0.1148), 0.15, 0.36),
+    ("shoulder", Stand::Height(0.0726, 0.0726), 0.05, 0.11),
+    ("bust_depth", Stand::Of("back_length", 0.671, 0.671), 0.1, 0.26),
+    ("bust_gap", Stand::Of("bust", 0.216, 0.216), 0.06, 0.22),
+    ("upper_arm", Stand::Of("bust", 0.317, 0.317), 0.1, 0.4),
+    ("elbow", Stand::Of("upper_arm", 0.87, 0.87), 0.09, 0.32),
+    ("wrist", Stand::Of("upper_arm", 0.565, 0.565), 0.06, 0.18),
+    ("arm_length", Stand::Height(0.351, 0.351), 0.26, 0.44),
+    ("thigh", Stand::Of("hip", 0.58, 0.58), 0.2, 0.62),
+    ("knee", Stand::Of("hip", 0.385, 0.385), 0.13, 0.42),
+    ("calf", Stand::Of("hip", 0.372, 0.372), 0.12, 0.42),
+    ("ankle", Stand::Of("hip", 0.23, 0.23), 0.08, 0.24),
     ("head", Stand::Grown(0.42, 0.08), 0.25, 0.55),
 ];
 
 /// Measures of the male figure; shares from EU 50 and ANSUR II (men) in the same way.
 const MALE: &[Entry] = &[
-    ("inseam", Stand::Height(0.4556), 0.34, 0.56),
-    ("body_rise", Stand::Height(0.15), 0.1, 0.24),
+    ("inseam", Stand::Height(0.4556, 0.43), 0.34, 0.56),
+    ("body_rise", Stand::Height(0.15, 0.16), 0.1, 0.24),
     ("waist_to_floor", Stand::Sum("inseam", "body_rise"), 0.5, 0.72),
-    ("back_length", Stand::Height(0.25), 0.17, 0.34),
-    ("waist_to_hip", Stand::Height(0.115), 0.06, 0.19),
-    ("armhole_depth", Stand::Height(0.1333), 0.08, 0.19),
-    ("chest", Stand::Height(0.556), 0.36, 1.1),
-    ("waist", Stand::Of("chest", 0.88), 0.3, 1.1),
-    ("hip", Stand::Of("chest", 1.03), 0.38, 1.1),
-    ("neck", Stand::Of("chest", 0.4), 0.15, 0.36),
-    ("shoulder", Stand::Height(0.0861), 0.05, 0.12),
-    ("upper_arm", Stand::Of("chest", 0.31), 0.1, 0.4),
-    ("elbow", Stand::Of("upper_arm", 0.88), 0.09, 0.32),
-    ("wrist", Stand::Of("upper_arm", 0.565), 0.06, 0.18),
-    ("arm_length", Stand::Height(0.361), 0.26, 0.44),
-    ("thigh", Stand::Of("hip", 0.56), 0.2, 0.62),
-    ("knee", Stand::Of("hip", 0.375), 0.13, 0.42),
-    ("calf", Stand::Of("hip", 0.365), 0.12, 0.42),
-    ("ankle", Stand::Of("hip", 0.225), 0.08, 0.24),
+    ("back_length", Stand::Height(0.25, 0.24), 0.17, 0.34),
+    ("waist_to_hip", Stand::Height(0.115, 0.115), 0.06, 0.19),
+    ("armhole_depth", Stand::Height(0.1333, 0.1333), 0.08, 0.19),
+    ("chest", Stand::Height(0.556, 0.556), 0.36, 1.1),
+    ("waist", Stand::Of("chest", 0.88, 0.94), 0.3, 1.1),
+    ("hip", Stand::Of("chest", 1.03, 1.05), 0.38, 1.1),
+    ("neck", Stand::Mixed("chest", 0.2, 0.1111), 0.15, 0.36),
+    ("shoulder", Stand::Height(0.0861, 0.0861), 0.05, 0.12),
+    ("upper_arm", Stand::Of("chest", 0.31, 0.31), 0.1, 0.4),
+    ("elbow", Stand::Of("upper_arm", 0.88, 0.88), 0.09, 0.32),
+    ("wrist", Stand::Of("upper_arm", 0.565, 0.565), 0.06, 0.18),
+    ("arm_length", Stand::Height(0.361, 0.361), 0.26, 0.44),
+    ("thigh", Stand::Of("hip", 0.56, 0.56), 0.2, 0.62),
+    ("knee", Stand::Of("hip", 0.375, 0.375), 0.13, 0.42),
+    ("calf", Stand::Of("hip", 0.365, 0.365), 0.12, 0.42),
+    ("ankle", Stand::Of("hip", 0.225, 0.225), 0.08, 0.24),
     ("head", Stand::Grown(0.42, 0.085), 0.25, 0.55),
 ];
 
@@ -155,11 +158,14 @@ impl Measures {
                     .help("figures can be made from 60 cm to 250 cm tall; check `height`"),
             ]);
         }
+        let youth = ((1.5 - height) / 0.35).clamp(0.0, 1.0);
+        let mix = |grown: f64, child: f64| grown + (child - grown) * youth;
         for (name, stand, least, most) in table {
             let known = |other: &str| values.get(other).copied().unwrap_or(height);
             let value = given(name).unwrap_or_else(|| match stand {
-                Stand::Height(share) => share * height,
-                Stand::Of(other, share) => share * known(other),
+                Stand::Height(grown, child) => mix(*grown, *child) * height,
+                Stand::Of(other, grown, child) => mix(*grown, *child) * known(other),
+                Stand::Mixed(other, share, tall) => share * known(other) + tall * height,
                 Stand::Grown(fixed, share) => fixed + share * height,
                 Stand::Sum(first, second) => known(first) + known(second),
             });
@@ -202,7 +208,7 @@ impl Measures {
         }
         let measures = Measures { values };
         let nape = measures.nape();
-        if wrong.is_empty() && !(0.105..=0.2).contains(&(1.0 - nape / height)) {
+        if wrong.is_empty() && !(0.105..=0.215).contains(&(1.0 - nape / height)) {
             let message = format!(
                 "the heights of `{}` do not add up: {} to the waist and a back of {} leave {} \
                  for neck and head",
@@ -214,7 +220,7 @@ impl Measures {
             let help = format!(
                 "a `height` of {} to {} fits, or change `waist_to_floor` or `back_length`",
                 cm(nape / 0.89),
-                cm(nape / 0.805)
+                cm(nape / 0.79)
             );
             wrong
                 .push(Diagnostic::new("E0309", message).at(request.span, "this wearer").help(help));

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 
 /// Length of a tight tape round points in a plane (the edge of their convex hull), m.
-pub(super) fn girth(points: &[[f64; 2]]) -> f64 {
+pub fn girth(points: &[[f64; 2]]) -> f64 {
     let hull = hull(points);
     (0..hull.len())
         .map(|k| {
@@ -19,7 +19,7 @@ pub(super) fn girth(points: &[[f64; 2]]) -> f64 {
 ///
 /// # References
 /// Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
-pub(super) fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sorted.dedup();

@@ -21,7 +21,7 @@ pub(super) struct Drape {
     #[command(flatten)]
     input: Input,
 
-    /// OUT.glb (textured, metres, y up) or OUT.obj (with OUT.mtl and OUT.png beside it)
+    /// OUT.glb (textured, metres, y up) or OUT.obj (with OUT.mtl and OUT.TEXTILE.png beside it)
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
@@ -55,11 +55,8 @@ impl Drape {
     fn write_obj(&self, compiled: &Compiled, draped: &Draped) -> Result<(), Stop> {
         let stem = self.output.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let files = export::obj::write(compiled, draped, self.with_body, &stem);
-        let atlas = &compiled.atlas;
-        if let Some(picture) =
-            image::RgbaImage::from_raw(atlas.width, atlas.height, atlas.pixels.clone())
-        {
-            output::write_png(&self.output.with_extension("png"), &picture)?;
+        for (name, picture) in &files.pictures {
+            output::write(&self.output.with_file_name(name), |out| out.write_all(picture))?;
         }
         output::write(&self.output.with_extension("mtl"), |out| out.write_all(&files.mtl))?;
         output::write(&self.output, |out| out.write_all(&files.obj))
@@ -111,13 +108,11 @@ pub(super) fn dress(
                 }
             }
             rungs.push(compiled.clone());
-            let mut draped =
-                crate::drape::drape(&rungs, &Default::default(), &mut Bar::new()).map_err(
-                    |diagnostics| {
-                        project.tell(&diagnostics);
-                        Stop::Input
-                    },
-                )?;
+            let mut draped = crate::drape::drape(&rungs, &Default::default(), &mut Bar::new())
+                .map_err(|diagnostics| {
+                    project.tell(&diagnostics);
+                    Stop::Input
+                })?;
             draped.stats.seconds.insert("compile".to_owned(), compile_seconds);
             if let Some(cache) = &cache {
                 cache.keep(&draped);
@@ -139,9 +134,7 @@ pub(super) fn verdict(draped: &Draped) -> Result<(), Stop> {
     match (&draped.stats.reason, draped.stats.verdict) {
         (Some(reason), _) => Err(Stop::Drape(reason.clone())),
         (None, Verdict::FellOff) => Err(Stop::Drape("the garment fell off".to_owned())),
-        (None, Verdict::Penetrating) => {
-            Err(Stop::Drape("cloth is left inside a body".to_owned()))
-        }
+        (None, Verdict::Penetrating) => Err(Stop::Drape("cloth is left inside a body".to_owned())),
         (None, Verdict::Settled | Verdict::StillMoving) => Ok(()),
     }
 }

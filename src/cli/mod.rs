@@ -13,6 +13,7 @@ mod output;
 mod project;
 mod render;
 
+use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -105,8 +106,16 @@ fn setting(text: &str) -> Result<(String, String), String> {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    let metres = crate::units::parse_length(text)
-        .ok_or_else(|| format!("`{text}` is not a length; write it with its unit, such as 5mm"))?;
+    let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let metres = number
+        .parse()
+        .ok()
+        .zip(crate::units::unit(unit).ok())
+        .and_then(|(number, unit): (f64, _)| unit.quantity(number))
+        .filter(|quantity| quantity.fits(Quantity::length(1.0).dimension))
+        .ok_or_else(|| format!("`{text}` is not a length; write it with its unit, such as 5mm"))?
+        .value;
     if (2e-4..=0.5).contains(&metres) {
         Ok(metres)
     } else {

@@ -40,8 +40,8 @@ impl Project {
         match world.open(name) {
             Ok(root) => Ok(Project { world, root, format: input.message_format }),
             Err(why) => {
-                let told = Diagnostic::new("E0903", format!("cannot read `{}`", path.display()))
-                    .help(why);
+                let told =
+                    Diagnostic::new("E0903", format!("cannot read `{}`", path.display())).help(why);
                 tell(&[told], &world, input.message_format);
                 Err(Stop::Input)
             }
@@ -53,7 +53,10 @@ impl Project {
     /// # Errors
     /// [`Stop::Input`] if anything is.
     pub(super) fn garments(&mut self, input: &Input) -> Result<Vec<Garment>, Stop> {
-        let options = evaluate::Options { set: input.set.clone() };
+        let options = evaluate::Options {
+            set: input.set.clone(),
+            names: input.name.iter().cloned().collect(),
+        };
         let (garments, diagnostics) = evaluate::evaluate(&mut self.world, self.root, &options);
         self.tell(&diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(garments) }

@@ -4,7 +4,7 @@
 use super::Evaluator;
 use super::item::ItemId;
 use super::scope::ScopeId;
-use super::words::{Clause, Element, Form, Kind, Many, Pattern, Word};
+use super::words::{Clause, Element, Kind, Many, Pattern, Word};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Block, Expr, ExprKind, Item, Name, Row};
 

@@ -178,6 +178,7 @@ impl<'t> Evaluator<'t> {
             Kind::Sizes => figure::sizes(ev, id).map(|it| Made::Sizes(Rc::new(it))),
             Kind::Body => figure::body(ev, id).map(|it| Made::Body(Rc::new(it))),
             Kind::Wearer => figure::wearer(ev, id).map(|it| Made::Wearer(Rc::new(it))),
+            Kind::Cloth => ev.cloth(id).map(|it| Made::Panel(Rc::new(it))),
             Kind::Panel => ev.draft(id).map(|it| Made::Panel(Rc::new(it))),
             _ => None,
         });

@@ -23,6 +23,9 @@ const LIBRARY: &[&str] = &[
     "std::motif",
     "std::fabric",
     "std::body",
+    "std::ang",
+    "std::kath",
+    "std::padar",
 ];
 
 /// A file that was read.

@@ -14,24 +14,30 @@ use crate::geometry::polygon::{Place, between, distance, sharpest, turn};
 pub const LIMIT: f64 = 0.939_692_620_785_908_4;
 /// cos 23°: what is aimed at.
 const AIM: f64 = 0.920_504_853_452_440_4;
-/// cos 30°: free points of triangles sharper than this are moved.
+/// cos 30°: free points of triangles sharper than this are moved at first.
 const EASE: f64 = 0.866_025_403_784_438_6;
 /// Rounds of changes at most.
 const ROUNDS: usize = 24;
-/// Rounds of moving between them.
+/// Rounds of moving before the first of them.
 const MOVES: usize = 3;
 
 /// Improves the band and draws it; `None` when its outline cannot be triangulated.
 pub fn improve(band: &mut Band) -> Option<Drawn> {
     let mut drawn = band.draw()?;
     for round in 0..ROUNDS {
-        for _ in 0..MOVES {
-            if !ease(band, &mut drawn) {
+        // The first rounds polish; the later ones only mend what may not stay.
+        let (aim, ease_from, moves) = match round {
+            0 => (AIM, EASE, MOVES),
+            1..=3 => (AIM, AIM, 1),
+            _ => (LIMIT, LIMIT, 1),
+        };
+        for _ in 0..moves {
+            if !ease(band, &mut drawn, ease_from) {
                 break;
             }
             drawn = band.draw()?;
         }
-        if !mend(band, &drawn, round) {
+        if !mend(band, &drawn, aim, round % 2 == 1) {
             break;
         }
         drawn = band.draw()?;
@@ -84,7 +90,11 @@ fn fan(hub: Place, sides: &[(Place, Place)]) -> f64 {
 fn best_place(start: Place, reach: f64, sides: &[(Place, Place)]) -> (Place, f64) {
     let (mut place, mut worst) = (start, fan(start, sides));
     let mut step = reach;
-    while step > reach / 40.0 {
+    // Ever smaller gains are not followed for ever.
+    for _ in 0..24 {
+        if step <= reach / 40.0 {
+            break;
+        }
         let diagonal = step * std::f64::consts::FRAC_1_SQRT_2;
         let ways = [
             [step, 0.0],
@@ -111,8 +121,8 @@ fn best_place(start: Place, reach: f64, sides: &[(Place, Place)]) -> (Place, f64
     (place, worst)
 }
 
-/// Moves free points of sharp triangles; tells whether any was.
-fn ease(band: &mut Band, drawn: &mut Drawn) -> bool {
+/// Moves free points of triangles sharper than `from`; tells whether any was.
+fn ease(band: &mut Band, drawn: &mut Drawn, from: f64) -> bool {
     let stars = Stars::new(drawn);
     let mut moved = vec![false; drawn.places.len()];
     for point in 0..drawn.places.len() {
@@ -121,7 +131,7 @@ fn ease(band: &mut Band, drawn: &mut Drawn) -> bool {
         }
         let star = stars.around(point);
         let worst = star.iter().map(|&t| sharpness(drawn, t)).fold(-1.0, f64::max);
-        if worst <= EASE {
+        if worst <= from {
             continue;
         }
         let rim = rim(drawn, star, point);
@@ -160,11 +170,12 @@ enum Change {
     TakeOut(usize),
 }
 
-/// Changes the points around triangles that are too sharp; tells whether anything was changed.
-fn mend(band: &mut Band, drawn: &Drawn, round: usize) -> bool {
+/// Changes the points around triangles sharper than `aim`, and with `boldly` gives up cells even
+/// where a change of points would help a little; tells whether anything was changed.
+fn mend(band: &mut Band, drawn: &Drawn, aim: f64, boldly: bool) -> bool {
     let count = drawn.mesh.triangles.len() as u32;
     let mut sharp: Vec<(f64, u32)> =
-        (0..count).map(|t| (sharpness(drawn, t), t)).filter(|&(worst, _)| worst > AIM).collect();
+        (0..count).map(|t| (sharpness(drawn, t), t)).filter(|&(worst, _)| worst > aim).collect();
     sharp.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     if sharp.is_empty() {
         return false;
@@ -192,8 +203,8 @@ fn mend(band: &mut Band, drawn: &Drawn, round: usize) -> bool {
                 offer(sharp, Change::TakeOut(corner), star.to_vec());
             }
         }
-        let good = best.as_ref().is_some_and(|b| b.0 <= AIM);
-        if !good && round % 2 == 1 || best.is_none() {
+        let good = best.as_ref().is_some_and(|b| b.0 <= aim);
+        if !good && boldly || best.is_none() {
             // Nothing here helps while the cells stand where they do.
             let mut released = false;
             for corner in corners {

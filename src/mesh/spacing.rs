@@ -3,6 +3,7 @@
 use super::breakpoint::Rings;
 use super::matching::Classes;
 use super::outline::Outline;
+use super::sharpness::NarrowCorners;
 use crate::geometry::nearby::Nearby;
 use crate::geometry::polygon::{
     Place, between, distance, distance_to_side, meeting, nearest_share, sides, turn,
@@ -12,15 +13,19 @@ use crate::geometry::polygon::{
 const TURN: f64 = std::f64::consts::FRAC_PI_4;
 /// Cloth narrower than this share of the steps along it asks for shorter ones.
 const SLENDER: f64 = 0.6;
-/// Sharp corners excuse narrow cloth beside them: sides further apart than this along the line,
-/// measured by their distance across, are told from the two sides of a corner.
-const APART: f64 = 8.0;
+/// Steps are not made shorter than this for the sake of narrow cloth, in cells.
+const SHORTEST: f64 = 0.25;
+/// Sides this far apart along the line, measured by their distance across, face each other over
+/// narrow cloth; nearer ones stand at a corner.
+const APART: f64 = 3.0;
 
 /// Steps of every class of intervals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spacing {
     /// By the number of the class; 0 where no class has that number.
     steps: Vec<usize>,
+    /// More steps than these are not taken.
+    most: Vec<usize>,
 }
 
 impl Spacing {
@@ -45,13 +50,16 @@ impl Spacing {
                 turns[class] = turns[class].max(bends as usize);
             }
         }
-        let steps = (0..count).map(|class| {
-            if longest[class] == 0.0 {
-                return 0;
-            }
-            nearest_count((longest[class] * shortest[class]).sqrt()).max(turns[class])
-        });
-        Spacing { steps: steps.collect() }
+        let steps: Vec<usize> = (0..count)
+            .map(|class| {
+                if longest[class] == 0.0 {
+                    return 0;
+                }
+                nearest_count((longest[class] * shortest[class]).sqrt()).max(turns[class])
+            })
+            .collect();
+        let most = |class: usize| steps[class].max((longest[class] / SHORTEST).ceil() as usize);
+        Spacing { most: (0..count).map(most).collect(), steps }
     }
 
     /// Steps of a class.
@@ -59,10 +67,13 @@ impl Spacing {
         self.steps[class]
     }
 
-    /// Makes the steps of a class shorter by a factor, at least by one more step.
-    pub fn refine(&mut self, class: usize, factor: f64) {
+    /// Makes the steps of a class shorter by a factor, as far as they may be; tells whether that
+    /// changed anything.
+    pub fn refine(&mut self, class: usize, factor: f64) -> bool {
         let steps = self.steps[class];
-        self.steps[class] = ((steps as f64 * factor).ceil() as usize).max(steps + 1);
+        let wanted = ((steps as f64 * factor).ceil() as usize).max(steps + 1);
+        self.steps[class] = wanted.min(self.most[class]);
+        self.steps[class] > steps
     }
 }
 
@@ -130,6 +141,7 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
         ends.resize(stretches.len(), (first, stretches.len(), way));
     }
     let near = Nearby::new(&stretches);
+    let narrow = NarrowCorners::new(rings);
     for (number, &(a, b)) in stretches.iter().enumerate() {
         let (first, end, around) = ends[number];
         let next = if number + 1 == end { first } else { number + 1 };
@@ -156,7 +168,8 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
                 width = width.min(across);
             }
         }
-        if width < reach {
+        // Shorter steps do not make a narrow corner wider.
+        if width < reach && !narrow.reach(middle) {
             fault.slender.push((number, (reach / width.max(0.01 * reach)).min(4.0)));
         }
     }

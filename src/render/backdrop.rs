@@ -9,5 +9,5 @@ pub fn paper(x: f32, y: f32) -> Light3 {
     let away = across * across + down * down;
     // Nearest white in the middle; half as wide again as the picture to fall to 2/3.
     let glow = 1.0 / (1.0 + 0.95 * away);
-    Light3::new(0.700, 0.703, 0.708) * glow
+    Light3::new(0.800, 0.803, 0.808) * glow
 }

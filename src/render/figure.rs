@@ -1,6 +1,8 @@
 //! What stands in the studio: cloth, bodies and solids as curved triangles with their coats.
 
 use super::finish::Look;
+use super::selvage::Selvages;
+use super::slub::Slubs;
 use super::swatch::Swatches;
 use super::{Light3, Vector, tone};
 use crate::body::surface::{Surface, SurfaceKind};
@@ -21,6 +23,8 @@ pub struct Figure<'a> {
     pub coats: Vec<Coat>,
     /// The textiles.
     pub swatches: Swatches<'a>,
+    /// Seams and free edges; the triangles of cloth are the first of all.
+    pub selvages: Selvages,
     /// Height of the floor, m.
     pub floor: f32,
     /// Whether somebody wears it.
@@ -75,6 +79,8 @@ pub struct Panel {
     pub plain: Light3,
     /// How light leaves the face and the back.
     pub looks: [Look; 2],
+    /// Its threads.
+    pub slubs: Option<Slubs>,
 }
 
 /// Seam partners nearer than this are drawn as one, m.
@@ -91,6 +97,7 @@ impl<'a> Figure<'a> {
             faces: Vec::new(),
             coats: Vec::new(),
             swatches: Swatches::of(&compiled.atlas),
+            selvages: Selvages::default(),
             floor: 0.0,
             worn: draped.surfaces.iter().any(|surface| surface.kind == SurfaceKind::Body),
         };
@@ -159,6 +166,7 @@ impl<'a> Figure<'a> {
             let band = compiled.triangles.get(panel.triangles.range()).unwrap_or_default();
             band.iter().for_each(|corners| add(*corners));
         }
+        self.selvages = Selvages::of(compiled, &faces);
         let normals = cloth_normals(&places, &faces, &welds);
         let first = self.corners.len() as u32;
         for ((place, normal), rest) in places.iter().zip(normals).zip(&compiled.particles) {
@@ -190,6 +198,7 @@ impl<'a> Figure<'a> {
                 .collect(),
             plain: fabric.map_or(Light3::repeat(0.5), yarn_colour),
             looks: [look(false), look(true)],
+            slubs: fabric.map(Slubs::of),
         }
     }
 

@@ -464,8 +464,8 @@ mod tests {
     /// Triangles strewn through a cube of 2 m, each some centimetres large.
     fn strewn(count: u32) -> Vec<[Vector; 3]> {
         let place = |i: u32, k: u32| {
-            let [x, y] = Sampler::new(k, i, 0, 0).pair();
-            let [z, _] = Sampler::new(k, i, 1, 0).pair();
+            let [x, y] = Sampler::new(k, [i, 0], 0, 1).pair();
+            let [z, _] = Sampler::new(k, [i, 9], 0, 1).pair();
             Vector::new(2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0)
         };
         (0..count)
@@ -483,7 +483,7 @@ mod tests {
             let hierarchy = Hierarchy::over(&triangles);
             let mut stack = Stack::new();
             for path in 0..300 {
-                let mut sampler = Sampler::new(9, 9, 9, path);
+                let mut sampler = Sampler::new(9, [9, 9], path, 300);
                 let ([a, b], [c, d]) = (sampler.pair(), sampler.pair());
                 let origin = Vector::new(3.0 * a - 1.5, 3.0 * b - 1.5, 3.0);
                 let direction = Vector::new(c - 0.5, d - 0.5, -1.5).normalize();

@@ -103,13 +103,13 @@ impl Lighting {
         Lighting {
             lamps: vec![
                 lamp([-3.1, 2.7, 3.0], [0.95, 1.1], [10.4, 10.1, 9.7]),
-                lamp([3.9, 0.9, 2.6], [1.3, 1.5], [0.85, 0.88, 0.93]),
+                lamp([3.9, 0.9, 2.6], [1.3, 1.5], [0.60, 0.62, 0.66]),
                 lamp([2.3, 2.3, -3.4], [0.5, 1.3], [10.0, 10.1, 10.4]),
             ],
             dome: Dome {
-                zenith: Light3::new(0.42, 0.425, 0.435),
-                horizon: Light3::new(0.30, 0.30, 0.305),
-                nadir: Light3::new(0.22, 0.217, 0.212),
+                zenith: Light3::new(0.27, 0.273, 0.28),
+                horizon: Light3::new(0.17, 0.17, 0.173),
+                nadir: Light3::new(0.13, 0.128, 0.125),
             },
         }
     }
@@ -144,7 +144,8 @@ impl Lighting {
     }
 
     /// Scales all light as a photographer sets the exposure: a white card in the middle, turned
-    /// half towards the camera and half towards the main lamp, is to send back 0.92.
+    /// half towards the camera and half towards the main lamp, is to send back 1.1 (the tone curve
+    /// bends it to just below white).
     fn expose(&mut self, stand: &Stand) {
         let towards = match self.lamps.first() {
             Some(lamp) => (lamp.centre - stand.middle).normalize(),
@@ -153,7 +154,7 @@ impl Lighting {
         let card = (towards + stand.front).normalize();
         let sent = self.sent_by_card(&stand.middle, &card).max();
         if sent > 0.0 {
-            let scale = 0.92 / sent;
+            let scale = 1.1 / sent;
             for lamp in &mut self.lamps {
                 lamp.radiance *= scale;
             }
@@ -288,7 +289,7 @@ mod tests {
             let towards = (lighting.lamps[0].centre - stand.middle).normalize();
             let card = (towards + stand.front).normalize();
             let sent = lighting.sent_by_card(&stand.middle, &card);
-            assert!((sent.max() - 0.92).abs() < 1e-3, "{light:?} {sent}");
+            assert!((sent.max() - 1.1).abs() < 1e-3, "{light:?} {sent}");
         }
     }
 
@@ -307,7 +308,7 @@ mod tests {
         let mut sum = 0.0;
         const PATHS: u32 = 4096;
         for path in 0..PATHS {
-            let mut sampler = crate::render::sample::Sampler::new(0, 0, 0, path);
+            let mut sampler = crate::render::sample::Sampler::new(0, [0, 0], path, PATHS);
             let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
             let weigh = |d: &Vector| d.dot(&normal).max(0.0);
             if let Some(arrival) = lighting.choose(&place, pair, choice, weigh) {

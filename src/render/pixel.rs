@@ -1,6 +1,5 @@
-//! What the paths of one pixel saw, summed and set apart: figure and floor, colour and light.
+//! What the paths of one pixel saw, summed and set apart: figure and paper, colour and light.
 
-use super::backdrop::paper;
 use super::camera::Camera;
 use super::sample::Sampler;
 use super::trace::{Seen, Tracer};
@@ -23,14 +22,10 @@ pub struct Pixel {
     pub distance: f32,
     /// Variance of the mean of the matte and the mirrored light.
     pub grain: f32,
-    /// Light that arrives on the floor over light on the empty floor.
-    pub shadow: Light3,
-    /// Variance of the mean of that.
-    pub shadow_grain: f32,
 }
 
-/// Paths that decide whether a pixel holds anything but paper.
-const FIRST: u32 = 4;
+/// Paths that tell whether a pixel shows nothing but paper.
+const BARE: u32 = 4;
 
 impl Pixel {
     /// Follows the paths of the pixel (`x`, `y`) of a picture of `size` pixels; `view` is its
@@ -47,25 +42,23 @@ impl Pixel {
         let mut sum = Sum::default();
         let mut path = 0;
         while path < paths {
-            let mut sampler = Sampler::new(view, x, y, path);
+            let mut sampler = Sampler::new(view, [x, y], path, paths);
             let [dx, dy] = sampler.pair();
             let (dx, dy) = (tent(dx), tent(dy));
             let at_x = (x as f32 + dx) / size[0] as f32;
             let at_y = (y as f32 + dy) / size[1] as f32;
             sum.add(&tracer.path(&camera.ray(at_x, at_y), spread, &mut sampler));
             path += 1;
-            // Paper and an empty floor are told apart from the rest by a few paths.
-            if path == FIRST && sum.figure == 0 && sum.undisturbed() {
+            if path == BARE && sum.figure == 0 {
                 break;
             }
         }
         sum.mean(path)
     }
 
-    /// The light of the finished pixel at a point of the picture, 0 to 1 from left and top.
-    pub fn light(&self, at: [f32; 2]) -> Light3 {
+    /// The light of the finished pixel before paper of that light.
+    pub fn light(&self, behind: &Light3) -> Light3 {
         let figure = self.colour.component_mul(&self.matte) + self.shine;
-        let behind = paper(at[0], at[1]).component_mul(&self.shadow);
         figure * self.cover + behind * (1.0 - self.cover)
     }
 }
@@ -85,7 +78,6 @@ fn tent(share: f32) -> f32 {
 #[derive(Default)]
 struct Sum {
     figure: u32,
-    floor: u32,
     colour: Light3,
     lit: Light3,
     plain: Light3,
@@ -94,10 +86,6 @@ struct Sum {
     distance: f32,
     level: f32,
     square: f32,
-    arrives: Light3,
-    empty: Light3,
-    share: f32,
-    share_square: f32,
 }
 
 impl Sum {
@@ -115,21 +103,8 @@ impl Sum {
                 self.level += level;
                 self.square += level * level;
             }
-            Seen::Floor { arrives, empty } => {
-                self.floor += 1;
-                self.arrives += arrives;
-                self.empty += empty;
-                let share = arrives.sum() / empty.sum().max(1e-6);
-                self.share += share;
-                self.share_square += share * share;
-            }
             Seen::Paper => {}
         }
-    }
-
-    /// Whether the figure takes no light from the floor as far as seen.
-    fn undisturbed(&self) -> bool {
-        (self.arrives - self.empty).abs().max() <= 0.004 * self.empty.max()
     }
 
     fn mean(&self, paths: u32) -> Pixel {
@@ -143,14 +118,6 @@ impl Sum {
             matte[k] = if colour[k] > 1e-4 { lit[k] / colour[k] } else { plain[k] };
         }
         let level = self.level / count;
-        let floor = (self.floor as f32).max(1.0);
-        let share = self.share / floor;
-        let mut shadow = Light3::repeat(1.0);
-        if self.floor > 0 {
-            for k in 0..3 {
-                shadow[k] = self.arrives[k] / self.empty[k].max(1e-6);
-            }
-        }
         Pixel {
             cover: self.figure as f32 / paths.max(1) as f32,
             colour,
@@ -159,8 +126,6 @@ impl Sum {
             normal: self.normal / count,
             distance: self.distance / count,
             grain: (self.square / count - level * level).max(0.0) / count,
-            shadow,
-            shadow_grain: (self.share_square / floor - share * share).max(0.0) / floor,
         }
     }
 }

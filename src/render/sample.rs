@@ -16,10 +16,16 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// Numbers of path `path` of the pixel (`x`, `y`) of the view `view`.
-    pub fn new(view: u32, x: u32, y: u32, path: u32) -> Self {
-        let seed = mixed(mixed(mixed(view ^ 0x9e37_79b9) ^ x) ^ y);
-        Sampler { seed, path, pair: 0 }
+    /// Numbers of path `path` of `paths` of the pixel (`x`, `y`) of the view `view`.
+    ///
+    /// Blocks of 4 × 4 pixels share one sequence, each pixel with a stretch of its own, nearest
+    /// pixels with neighbouring stretches: not only a pixel's paths but also those of its
+    /// neighbourhood are spread evenly, so that little grain is left to be smoothed.
+    pub fn new(view: u32, [x, y]: [u32; 2], path: u32, paths: u32) -> Self {
+        let seed = mixed(mixed(mixed(view ^ 0x9e37_79b9) ^ (x >> 2)) ^ (y >> 2));
+        let stretch = (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2;
+        let length = paths.clamp(1, 1 << 20).next_power_of_two();
+        Sampler { seed, path: stretch * length + path, pair: 0 }
     }
 
     /// The next pair, each from 0 up to but not including 1.
@@ -112,7 +118,7 @@ mod tests {
             for (columns, rows) in [(4, 4), (16, 1), (1, 16), (8, 2)] {
                 let mut count = [0; 16];
                 for path in 0..16 {
-                    let mut sampler = Sampler::new(0, x, y, path);
+                    let mut sampler = Sampler::new(0, [x, y], path, 16);
                     sampler.pair();
                     let [u, v] = sampler.pair();
                     let column = (u * columns as f32) as usize;
@@ -125,10 +131,25 @@ mod tests {
     }
 
     #[test]
+    fn neighbours_fill_each_others_gaps() {
+        let mut count = [0; 256];
+        for pixel in 0..16 {
+            for path in 0..16 {
+                let mut sampler = Sampler::new(0, [40 + pixel % 4, 20 + pixel / 4], path, 16);
+                let [u, v] = sampler.pair();
+                count[(u * 16.0) as usize * 16 + (v * 16.0) as usize] += 1;
+            }
+        }
+        assert_eq!(count, [1; 256]);
+    }
+
+    #[test]
     fn cosine_directions_have_the_mean_cosine_of_two_thirds() {
         let normal = Vector::new(0.36, 0.48, -0.8);
         let sum: f32 = (0..1024)
-            .map(|path| cosine_about(&normal, Sampler::new(1, 2, 3, path).pair()).dot(&normal))
+            .map(|path| {
+                cosine_about(&normal, Sampler::new(1, [2, 3], path, 1024).pair()).dot(&normal)
+            })
             .sum();
         // The integrand is smooth; 1024 evenly spread points leave an error far below 1/√1024.
         assert!((sum / 1024.0 - 2.0 / 3.0).abs() < 0.005, "{}", sum / 1024.0);

@@ -1,9 +1,12 @@
 //! The sheet: its views side by side or in rows, whichever shows the figure larger.
 
+use super::backdrop::paper;
 use super::camera::{Camera, Framing};
 use super::figure::Figure;
+use super::floor::Floor;
 use super::lamp::Lighting;
 use super::pixel::Pixel;
+use super::sample::Sampler;
 use super::smooth::Film;
 use super::trace::{Set, Tracer};
 use super::{Options, Vector, tone};
@@ -85,7 +88,7 @@ pub fn print(
     let mut sheet = RgbaImage::new(size[0], size[1]);
     for (x, y, pixel) in sheet.enumerate_pixels_mut() {
         let at = [x as f32 / size[0] as f32, y as f32 / size[1] as f32];
-        *pixel = Rgba(tone::developed(&super::backdrop::paper(at[0], at[1])));
+        *pixel = Rgba(tone::developed(&paper(at[0], at[1]), grit(x, y)));
     }
     let height = frames.first().map_or(1, |frame| frame[3]).max(1);
     let set = Set::of(figure, EDGE * framing.height / height as f32);
@@ -105,12 +108,30 @@ pub fn print(
             done += last - first;
             progress.share(done as f64 / all as f64, "");
         }
+        let mut floor = Floor::traced(
+            || tracer(&set, &lighting, camera, options),
+            camera,
+            view as u32,
+            [frame[2], frame[3]],
+        );
         if options.smooth {
             film.smooth();
+            floor.smooth();
         }
-        develop(&film, frame, &mut sheet);
+        develop(&film, &floor, frame, &mut sheet);
     }
     sheet
+}
+
+/// A worker.
+fn tracer<'a>(
+    set: &'a Set<'a>,
+    lighting: &'a Lighting,
+    camera: &Camera,
+    options: &Options,
+) -> Tracer<'a> {
+    let stand = &camera.stand;
+    Tracer::new(set, lighting, options.bounces.max(1), stand.middle, stand.extent)
 }
 
 /// Traces some rows of a view.
@@ -125,31 +146,37 @@ fn trace_band(
 ) -> Vec<Pixel> {
     let size = [frame[2], frame[3]];
     let width = frame[2] as usize;
-    let tracer = || {
-        let stand = &camera.stand;
-        Tracer::new(set, lighting, options.bounces.max(1), stand.middle, stand.extent)
-    };
     (rows.start * width..rows.end * width)
         .into_par_iter()
         .with_min_len(64)
-        .map_init(tracer, |tracer, at| {
-            let place = [(at % width) as u32, (at / width) as u32];
-            Pixel::traced(tracer, camera, view as u32, place, size, options.paths.max(1))
-        })
+        .map_init(
+            || tracer(set, lighting, camera, options),
+            |tracer, at| {
+                let place = [(at % width) as u32, (at / width) as u32];
+                Pixel::traced(tracer, camera, view as u32, place, size, options.paths.max(1))
+            },
+        )
         .collect()
 }
 
+/// An even number from 0 to 1 for each pixel, to round with.
+fn grit(x: u32, y: u32) -> f32 {
+    Sampler::new(u32::MAX, [x, y], 0, 1).pair()[0]
+}
+
 /// Puts a view on the sheet.
-fn develop(film: &Film, frame: &Frame, sheet: &mut RgbaImage) {
+fn develop(film: &Film, floor: &Floor, frame: &Frame, sheet: &mut RgbaImage) {
     let [width, height] = film.size;
     let colours: Vec<[u8; 4]> = film
         .pixels
         .par_iter()
         .enumerate()
         .map(|(at, pixel)| {
-            let x = ((at % width) as f32 + 0.5) / width as f32;
-            let y = ((at / width) as f32 + 0.5) / height as f32;
-            tone::developed(&pixel.light([x, y]))
+            let (x, y) = (at % width, at / width);
+            let share = |n: usize, of: usize| (n as f32 + 0.5) / of as f32;
+            let paper = paper(share(x, width), share(y, height));
+            let light = pixel.light(&paper.component_mul(&floor.shadow(x, y)));
+            tone::developed(&light, grit(x as u32, y as u32))
         })
         .collect();
     for (at, colour) in colours.into_iter().enumerate() {

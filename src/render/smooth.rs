@@ -9,8 +9,8 @@ use super::Light3;
 use super::pixel::Pixel;
 use rayon::prelude::*;
 
-/// Half of a binomial kernel of five.
-const KERNEL: [f32; 3] = [0.375, 0.25, 0.0625];
+/// A binomial kernel.
+const KERNEL: [f32; 5] = [0.0625, 0.25, 0.375, 0.25, 0.0625];
 
 /// Passes; the taps of the last lie 2^(passes − 1) pixels apart.
 const PASSES: u32 = 4;
@@ -27,118 +27,92 @@ pub struct Film {
 }
 
 impl Film {
-    /// Smooths the light on the figure and the shadows on the floor.
+    /// Smooths the light on the figure.
     pub fn smooth(&mut self) {
-        self.even_grain();
+        self.each(Film::evened);
         for pass in 0..PASSES {
-            let step = 1 << pass;
-            let film = &*self;
-            let width = film.size[0];
-            let smoothed: Vec<Pixel> = (0..film.pixels.len())
-                .into_par_iter()
-                .map(|at| film.pass(at % width, at / width, step))
-                .collect();
-            self.pixels = smoothed;
+            self.each(|film, at| film.pass(at, 1 << pass));
         }
+    }
+
+    /// Replaces every pixel by what is made of it and its neighbours.
+    fn each(&mut self, make: impl Fn(&Film, usize) -> Pixel + Sync) {
+        let film = &*self;
+        let made = (0..film.pixels.len()).into_par_iter().with_min_len(256);
+        self.pixels = made.map(|at| make(film, at)).collect();
     }
 
     /// The variance of few paths is itself uncertain: the mean of the neighbours is taken.
-    fn even_grain(&mut self) {
-        let film = &*self;
-        let width = film.size[0];
-        let evened: Vec<[f32; 2]> = (0..film.pixels.len())
-            .into_par_iter()
-            .map(|at| {
-                let (mut sum, mut weight) = ([0.0; 2], [1e-9; 2]);
-                for (pixel, share) in film.taps(at % width, at / width, 1) {
-                    let shares = [share * pixel.cover, share * (1.0 - pixel.cover)];
-                    for (k, grain) in [pixel.grain, pixel.shadow_grain].into_iter().enumerate() {
-                        sum[k] += grain * shares[k];
-                        weight[k] += shares[k];
-                    }
+    fn evened(&self, at: usize) -> Pixel {
+        let (mut figure, mut shown) = (0.0, 1e-9);
+        self.taps(at, 1, |tap, share| {
+            figure += tap.grain * share * tap.cover;
+            shown += share * tap.cover;
+        });
+        let mut pixel = self.pixels[at];
+        pixel.grain = figure / shown;
+        pixel
+    }
+
+    /// Hands over the pixels of the kernel about a pixel with their shares.
+    #[inline(always)]
+    fn taps(&self, at: usize, step: usize, mut take: impl FnMut(&Pixel, f32)) {
+        let [width, height] = self.size;
+        let (x, y) = (at % width, at / width);
+        for (dy, row) in KERNEL.iter().enumerate() {
+            let Some(py) = (y + dy * step).checked_sub(2 * step) else { continue };
+            if py >= height {
+                continue;
+            }
+            for (dx, column) in KERNEL.iter().enumerate() {
+                let Some(px) = (x + dx * step).checked_sub(2 * step) else { continue };
+                if px < width {
+                    take(&self.pixels[py * width + px], row * column);
                 }
-                [sum[0] / weight[0], sum[1] / weight[1]]
-            })
-            .collect();
-        for (pixel, [grain, shadow]) in self.pixels.iter_mut().zip(evened) {
-            pixel.grain = grain;
-            pixel.shadow_grain = shadow;
+            }
         }
     }
 
-    /// The pixels of the kernel about (`x`, `y`) with their shares.
-    fn taps(&self, x: usize, y: usize, step: i64) -> impl Iterator<Item = (&Pixel, f32)> {
-        let [width, height] = self.size.map(|n| n as i64);
-        (-2..=2_i64).flat_map(move |dy| {
-            (-2..=2_i64).filter_map(move |dx| {
-                let (px, py) = (x as i64 + dx * step, y as i64 + dy * step);
-                let inside = (0..width).contains(&px) && (0..height).contains(&py);
-                let share = KERNEL[dx.unsigned_abs() as usize] * KERNEL[dy.unsigned_abs() as usize];
-                inside.then(|| (&self.pixels[(py * width + px) as usize], share))
-            })
-        })
-    }
-
-    fn pass(&self, x: usize, y: usize, step: i64) -> Pixel {
-        let mut pixel = self.pixels[y * self.size[0] + x];
+    fn pass(&self, at: usize, step: usize) -> Pixel {
+        let mut pixel = self.pixels[at];
         if pixel.cover > 0.0 && pixel.grain > 0.0 {
-            self.smooth_figure(&mut pixel, x, y, step);
-        }
-        if pixel.cover < 1.0 && pixel.shadow_grain > 0.0 {
-            self.smooth_floor(&mut pixel, x, y, step);
+            self.smooth_figure(&mut pixel, at, step);
         }
         pixel
     }
 
-    fn smooth_figure(&self, pixel: &mut Pixel, x: usize, y: usize, step: i64) {
+    fn smooth_figure(&self, pixel: &mut Pixel, at: usize, step: usize) {
         let level = |p: &Pixel| (p.matte + p.shine).sum() / 3.0;
         let here = level(pixel);
-        let spread = TOLERANCE * pixel.grain.sqrt() + 1e-4;
+        let doubt = 1.0 / (TOLERANCE * TOLERANCE * pixel.grain + 1e-8);
+        let depth = 1.0 / (0.004 * pixel.distance.max(1e-6));
         let (mut matte, mut shine) = (Light3::zeros(), Light3::zeros());
         let (mut weight, mut grain) = (0.0, 0.0);
-        for (tap, share) in self.taps(x, y, step) {
+        self.taps(at, step, |tap, share| {
             if tap.cover <= 0.0 {
-                continue;
+                return;
             }
             let lean = (pixel.normal - tap.normal).norm_squared();
-            let depth = (pixel.distance - tap.distance) / (0.004 * pixel.distance);
-            let light = (here - level(tap)) / spread;
+            let behind = (pixel.distance - tap.distance) * depth;
+            let light = here - level(tap);
             let edge = pixel.cover - tap.cover;
-            let off = lean * 24.0 + depth * depth + light * light + edge * edge * 8.0;
+            let off = lean * 24.0 + behind * behind + light * light * doubt + edge * edge * 8.0;
             let w = share * tap.cover * falling(off);
             matte += tap.matte * w;
             shine += tap.shine * w;
             grain += tap.grain * w * w;
             weight += w;
-        }
+        });
         if weight > 1e-6 {
             pixel.matte = matte / weight;
             pixel.shine = shine / weight;
             pixel.grain = grain / (weight * weight);
         }
     }
-
-    fn smooth_floor(&self, pixel: &mut Pixel, x: usize, y: usize, step: i64) {
-        let level = |p: &Pixel| p.shadow.sum() / 3.0;
-        let here = level(pixel);
-        let spread = TOLERANCE * pixel.shadow_grain.sqrt() + 1e-4;
-        let mut shadow = Light3::zeros();
-        let (mut weight, mut grain) = (0.0, 0.0);
-        for (tap, share) in self.taps(x, y, step) {
-            let light = (here - level(tap)) / spread;
-            let w = share * (1.0 - tap.cover) * falling(light * light);
-            shadow += tap.shadow * w;
-            grain += tap.shadow_grain * w * w;
-            weight += w;
-        }
-        if weight > 1e-6 {
-            pixel.shadow = shadow / weight;
-            pixel.shadow_grain = grain / (weight * weight);
-        }
-    }
 }
 
 /// Falls from 1 at 0 like a bell, by plain arithmetic.
+#[inline(always)]
 fn falling(off: f32) -> f32 {
     let base = 1.0 / (1.0 + 0.25 * off);
     let square = base * base;

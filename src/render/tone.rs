@@ -17,15 +17,10 @@ fn shown(light: f32) -> f32 {
     KNEE + room * over / (1.0 + over)
 }
 
-/// An sRGB byte of a channel of linear light between 0 and 1 (IEC 61966-2-1).
-pub fn encoded(light: f32) -> u8 {
+/// The sRGB value, 0 to 1, of a channel of linear light between 0 and 1 (IEC 61966-2-1).
+fn curve(light: f32) -> f32 {
     let light = light.clamp(0.0, 1.0);
-    let value = if light <= 0.003_130_8 {
-        12.92 * light
-    } else {
-        1.055 * libm::powf(light, 1.0 / 2.4) - 0.055
-    };
-    (value * 255.0 + 0.5) as u8
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * libm::powf(light, 1.0 / 2.4) - 0.055 }
 }
 
 /// Linear light of an sRGB byte.
@@ -40,11 +35,15 @@ pub fn decoded_colour(colour: [u8; 4]) -> Light3 {
 }
 
 /// The pixel that shows `light`. Bright colours keep part of their hue: the curve is taken half
-/// by channel and half by the brightest channel.
-pub fn developed(light: &Light3) -> [u8; 4] {
+/// by channel and half by the brightest channel. `grit` from 0 to 1 decides what is between two
+/// bytes, so that a slow fall of light shows no steps.
+pub fn developed(light: &Light3, grit: f32) -> [u8; 4] {
     let most = light.max().max(1e-6);
     let scale = shown(most) / most;
-    let channel = |c: f32| encoded(0.5 * shown(c) + 0.5 * (c * scale));
+    let channel = |c: f32| {
+        let value = curve(0.5 * shown(c) + 0.5 * (c * scale)) * 255.0;
+        (value + grit) as u8
+    };
     [channel(light.x), channel(light.y), channel(light.z), 255]
 }
 
@@ -55,7 +54,7 @@ mod tests {
     #[test]
     fn bytes_come_back_from_light() {
         for byte in 0..=255 {
-            assert_eq!(encoded(decoded(byte)), byte);
+            assert!((curve(decoded(byte)) * 255.0 - f32::from(byte)).abs() < 0.01);
         }
     }
 
@@ -68,6 +67,6 @@ mod tests {
             last = now;
         }
         // A white cloth, lit twice as bright as the meter asks, still shows form.
-        assert!(developed(&Light3::repeat(1.0))[0] < developed(&Light3::repeat(2.0))[0]);
+        assert!(developed(&Light3::repeat(1.0), 0.5)[0] < developed(&Light3::repeat(2.0), 0.5)[0]);
     }
 }

@@ -27,14 +27,7 @@ pub struct Set<'a> {
 pub enum Seen {
     /// Cloth, a body or a solid.
     Figure(Seeing),
-    /// The floor: light that arrives there, and what would arrive were it empty.
-    Floor {
-        /// With the figure.
-        arrives: Light3,
-        /// Without.
-        empty: Light3,
-    },
-    /// The paper behind.
+    /// The paper, behind or on the floor.
     Paper,
 }
 
@@ -61,6 +54,9 @@ const LIFT: f32 = 4e-5;
 
 /// What the floor sends back of the light that it gets.
 const FLOOR: f32 = 0.62;
+
+/// Nothing sends back all the light; a cloth that did would never let a fold grow dark.
+const WHITEST: f32 = 0.94;
 
 /// One path's mirrored light counts no more than this, against grain.
 const BRIGHTEST: f32 = 6.0;
@@ -191,10 +187,7 @@ impl<'a> Tracer<'a> {
             let place = self.place(&hit, ray, Some(spread * hit.distance));
             return Seen::Figure(self.seeing(ray, &place, hit.distance, sampler));
         }
-        match self.on_floor(ray) {
-            Some(at) => self.on_empty_floor(&at, sampler),
-            None => Seen::Paper,
-        }
+        Seen::Paper
     }
 
     /// Light at a place of the figure, sent towards the eye.
@@ -318,9 +311,8 @@ impl<'a> Tracer<'a> {
         light * FLOOR
     }
 
-    /// A look at the floor: light with the figure and without, by the same numbers, so that the
-    /// floor is free of grain where the figure takes nothing away.
-    fn on_empty_floor(&mut self, at: &Vector, sampler: &mut Sampler) -> Seen {
+    /// Light on the floor with the figure and, by the same numbers, without.
+    pub fn light_on_floor(&mut self, at: &Vector, sampler: &mut Sampler) -> (Light3, Light3) {
         let origin = at + Vector::y() * self.lift;
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
@@ -336,11 +328,19 @@ impl<'a> Tracer<'a> {
         let ray = Ray { origin, direction, reach: f32::INFINITY };
         empty += self.lighting.dome.radiance(&direction);
         arrives += self.light_along(&ray, 1, sampler);
-        Seen::Floor { arrives, empty }
+        (arrives, empty)
+    }
+
+    /// 0 on the floor about the figure, 1 where shadows have run out, far away.
+    pub fn openness(&self, at: &Vector) -> f32 {
+        let off = at - self.round.0;
+        let away = (off.x * off.x + off.z * off.z).sqrt() / self.round.1;
+        let share = ((away - 0.55) / 0.45).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share)
     }
 
     /// Where the ray meets the floor, if it does within the round on which shadows fall.
-    fn on_floor(&self, ray: &Ray) -> Option<Vector> {
+    pub fn on_floor(&self, ray: &Ray) -> Option<Vector> {
         if !self.floor || ray.direction.y > -1e-6 {
             return None;
         }
@@ -382,8 +382,8 @@ impl<'a> Tracer<'a> {
     fn place(&self, hit: &Hit, ray: &Ray, window: Option<f32>) -> Place {
         let set = self.set;
         let figure = set.figure;
-        let (face, piece) = set.pieces[hit.triangle as usize];
-        let face = figure.faces[face as usize];
+        let (number, piece) = set.pieces[hit.triangle as usize];
+        let face = figure.faces[number as usize];
         let corners = face.corners.map(|k| figure.corners[k as usize]);
         let [u, v] = piece.shares(hit.u, hit.v);
         let w = 1.0 - u - v;
@@ -412,7 +412,12 @@ impl<'a> Tracer<'a> {
                 // the cloth is seen at an angle.
                 let slant = 0.35 / normal.dot(&ray.direction).abs().max(0.05);
                 let wide = window.map_or(0.02, |window| window * slant.clamp(0.6, 3.0));
-                let colour = figure.cloth_colour(panel, rest, back, wide, &threads, ray);
+                let mut colour = figure.cloth_colour(panel, rest, back, wide, &threads, ray);
+                if window.is_some() {
+                    let streak = panel.slubs.map_or(1.0, |slubs| slubs.light(rest, wide));
+                    colour *= (streak * figure.selvages.left(number, rest, wide)).max(0.0);
+                    colour = colour.map(|c| c.min(WHITEST));
+                }
                 (colour, panel.looks[usize::from(back)], threads)
             }
         };
@@ -480,8 +485,7 @@ impl Figure<'_> {
             let even = (warp + weft) * 0.5;
             colour = colour.zip_map(&turned.zip_map(&even, |t, e| t / e.max(1e-3)), |c, f| c * f);
         }
-        // Nothing sends back all the light; a colour of 1 would never let a fold grow dark.
-        colour.map(|c| c.clamp(0.0, 0.94))
+        colour.map(|c| c.clamp(0.0, WHITEST))
     }
 }
 
@@ -525,4 +529,112 @@ fn wood(at: &Vector) -> Light3 {
     let late = 0.5 + 0.5 * libm::sinf(ring + libm::sinf(ring * 0.37) * 1.3);
     let late = late * late * late;
     Light3::new(0.47, 0.335, 0.215) * (1.0 - 0.26 * late)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::surface::{Surface as Solid, SurfaceKind};
+    use crate::drape::draped::{Draped, Stats};
+    use crate::mesh::compiled::Compiled;
+    use crate::render::lamp::Dome;
+    use nalgebra::{Point3, Vector3};
+
+    /// A ball of radius 1 about (0, 1, 0), coarse.
+    fn ball() -> Draped {
+        let mut surface = Solid { kind: SurfaceKind::Solid, ..Solid::default() };
+        const SIDES: u32 = 12;
+        for ring in 0..=SIDES {
+            for side in 0..2 * SIDES {
+                let polar = f64::from(ring) * std::f64::consts::PI / f64::from(SIDES);
+                let turn = f64::from(side) * std::f64::consts::PI / f64::from(SIDES);
+                let (sin, cos) = polar.sin_cos();
+                let normal = Vector3::new(sin * turn.sin(), -cos, sin * turn.cos());
+                surface.vertices.push(Point3::from(normal + Vector3::y()));
+                surface.normals.push(normal);
+            }
+        }
+        for ring in 0..SIDES {
+            for side in 0..2 * SIDES {
+                let (a, b) = (ring * 2 * SIDES + side, ring * 2 * SIDES + (side + 1) % (2 * SIDES));
+                surface.triangles.push([a, b, b + 2 * SIDES]);
+                surface.triangles.push([a, b + 2 * SIDES, a + 2 * SIDES]);
+            }
+        }
+        Draped { positions: vec![], surfaces: vec![surface], stats: Stats::default() }
+    }
+
+    #[test]
+    fn a_white_ball_in_even_light_cannot_be_seen() {
+        let (compiled, draped) = (Compiled::default(), ball());
+        let mut figure = Figure::of(&compiled, &draped);
+        let mut look = Look::of_body();
+        look.matte = 1.0;
+        look.sheen.strength = 0.0;
+        look.gloss[0].strength = 0.0;
+        figure.coats = vec![Coat::Plain { colour: Light3::repeat(1.0), look }];
+        let set = Set::of(&figure, 0.05);
+        let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
+        let mut tracer = Tracer::new(&set, &lighting, 2, Vector::y(), 1.0).floating();
+        let mut met = 0;
+        for path in 0..400_u32 {
+            let (x, y) = ((path % 20) as f32 / 10.0 - 1.0, (path / 20) as f32 / 10.0);
+            let origin = Vector::new(x, y, 5.0);
+            let ray = Ray { origin, direction: -Vector::z(), reach: f32::INFINITY };
+            let mut sampler = Sampler::new(0, [0, 0], path, 400);
+            if let Seen::Figure(seeing) = tracer.path(&ray, 1e-3, &mut sampler) {
+                met += 1;
+                let light = seeing.colour.component_mul(&seeing.matte) + seeing.shine;
+                // The ball is convex: every path leaves it at once and finds a light of 1.
+                assert!((light - Light3::repeat(1.0)).norm() < 1e-5, "{light}");
+            }
+        }
+        // π / 4 of the rays of the square, less a rim.
+        assert!((290..330).contains(&met), "{met}");
+    }
+
+    #[test]
+    fn curved_triangles_make_the_ball_round() {
+        let (compiled, draped) = (Compiled::default(), ball());
+        let figure = Figure::of(&compiled, &draped);
+        let set = Set::of(&figure, 0.05);
+        let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
+        let tracer = &mut Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);
+        for k in 0..100 {
+            let x = -0.9 + 0.018 * k as f32;
+            let origin = Vector::new(x, 1.13, 5.0);
+            let ray = Ray { origin, direction: -Vector::z(), reach: f32::INFINITY };
+            let mut sampler = Sampler::new(0, [0, 0], 0, 1);
+            let hit = tracer.nearest(&ray, &mut sampler).expect("the ball is there");
+            let place = tracer.place(&hit, &ray, None);
+            let radius = (place.at - Vector::y()).norm();
+            // Facets of 15° would lie up to 1 − cos 7.5° = 0.0086 inside; the cubic is several
+            // times nearer.
+            assert!((radius - 1.0).abs() < 2e-3, "{radius}");
+            assert!((place.threads.normal - (place.at - Vector::y())).norm() < 0.03);
+        }
+    }
+
+    #[test]
+    fn the_floor_is_as_bright_as_empty_where_the_figure_is_far() {
+        let (compiled, draped) = (Compiled::default(), ball());
+        let figure = Figure::of(&compiled, &draped);
+        let set = Set::of(&figure, 0.2);
+        let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
+        let mut tracer = Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);
+        let mut shade = |x: f32| {
+            let (mut arrives, mut empty) = (0.0, 0.0);
+            for path in 0..256 {
+                let mut sampler = Sampler::new(0, [0, 0], path, 256);
+                let at = Vector::new(x, 0.0, 0.0);
+                let (with, without) = tracer.light_on_floor(&at, &mut sampler);
+                arrives += with.y;
+                empty += without.y;
+            }
+            arrives / empty
+        };
+        let (near, far) = (shade(0.05), shade(30.0));
+        assert!(near < 0.3, "{near}");
+        assert!((far - 1.0).abs() < 0.01, "{far}");
+    }
 }

@@ -130,6 +130,21 @@ impl Structure {
     }
 }
 
+impl Fabric {
+    /// The colour of its face from far, linear light: warp and weft by the share of crossings at
+    /// which each lies on top.
+    pub fn light(&self) -> [f64; 3] {
+        match &self.structure {
+            Structure::Woven { weave, warp, weft } => {
+                let share = weave.warp_share();
+                let (warp, weft) = (warp.colour.linear(), weft.colour.linear());
+                [0, 1, 2].map(|n| share * warp[n] + (1.0 - share) * weft[n])
+            }
+            Structure::Knitted { yarn, .. } => yarn.colour.linear(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -25,11 +25,8 @@ pub fn cotton() -> Fabric {
         colour: Colour([r, g, b, 255]),
         diameter: 0.2e-3,
     };
-    let thread = |r, g, b| Thread {
-        yarn: yarn(r, g, b),
-        spacing: 0.35e-3,
-        colour: Colour([r, g, b, 255]),
-    };
+    let thread =
+        |r, g, b| Thread { yarn: yarn(r, g, b), spacing: 0.35e-3, colour: Colour([r, g, b, 255]) };
     Fabric {
         name: "cotton".to_owned(),
         structure: Structure::Woven {
@@ -252,8 +249,21 @@ pub fn tunic() -> Garment {
         straight(&corners)
     };
     let names = [
-        "side_r", "arm_r0", "arm_r1", "arm_r2", "shoulder_r", "neck_r0", "neck_r1", "neck_l1",
-        "neck_l0", "shoulder_l", "arm_l2", "arm_l1", "arm_l0", "side_l", "hem",
+        "side_r",
+        "arm_r0",
+        "arm_r1",
+        "arm_r2",
+        "shoulder_r",
+        "neck_r0",
+        "neck_r1",
+        "neck_l1",
+        "neck_l0",
+        "shoulder_l",
+        "arm_l2",
+        "arm_l1",
+        "arm_l0",
+        "side_l",
+        "hem",
     ];
     let cap = [
         [-0.17, -0.22],
@@ -299,9 +309,7 @@ pub fn tunic() -> Garment {
                 name: format!("armhole {panel} {sleeve}"),
                 span: Span::default(),
                 kind: SeamKind::Plain,
-                a: hole
-                    .map(|name| run(&panels, panel, name, name.starts_with("arm_r")))
-                    .to_vec(),
+                a: hole.map(|name| run(&panels, panel, name, name.starts_with("arm_r"))).to_vec(),
                 b: cap.map(|name| run(&panels, sleeve, name, name.starts_with("cap_r"))).to_vec(),
             });
         }

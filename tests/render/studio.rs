@@ -73,7 +73,7 @@ pub fn woven(colour: [u8; 3]) -> Atlas {
 }
 
 /// A sheet of `columns` × `rows` cells; `rest` and `place` take shares from 0 to 1.
-fn sheet(
+pub fn sheet(
     name: &str,
     compiled: &mut Compiled,
     positions: &mut Vec<Point3<f64>>,
@@ -97,6 +97,10 @@ fn sheet(
             compiled.cells.push([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }
+    let mut outline: Vec<u32> = (0..columns).map(|i| at(i, 0)).collect();
+    outline.extend((0..rows).map(|j| at(columns, j)));
+    outline.extend((1..=columns).rev().map(|i| at(i, rows)));
+    outline.extend((1..=rows).rev().map(|j| at(0, j)));
     let triangles = compiled.triangles.len() as u32;
     compiled.panels.push(MeshPanel {
         name: name.to_owned(),
@@ -108,7 +112,7 @@ fn sheet(
         particles: Stretch { start: first, end: compiled.particles.len() as u32 },
         cells: Stretch { start: first_cell, end: compiled.cells.len() as u32 },
         triangles: Stretch { start: triangles, end: triangles },
-        loops: Vec::new(),
+        loops: vec![outline],
         edges: Vec::new(),
         surfaces: vec![compiled::Surface { area: None, face: 0, back: 0 }],
     });

@@ -1,12 +1,20 @@
-//! Panels: from the words of a panel to outlines with named edges.
+//! Panels: from the words of a panel to cut pieces with named edges.
 
 pub mod edge;
+mod fit;
+mod instance;
+pub(super) mod operation;
+mod outline;
+pub(super) mod sheet;
 
 use super::Evaluator;
 use super::fields::Fields;
 use super::item::{ItemId, State};
-use super::scope::BindingId;
-use super::value::Value;
+use super::scope::ScopeId;
+use crate::diagnostic::Span;
+use crate::garment::panel::{Loop, Notch, Run};
+use kurbo::{BezPath, Point};
+use sheet::Drawn;
 use std::rc::Rc;
 
 /// Number of an instance.
@@ -14,8 +22,13 @@ use std::rc::Rc;
 pub struct InstanceId(pub(super) usize);
 
 /// A panel's block opened with certain values of its fitted names.
+#[derive(Debug)]
 pub(super) struct Instance<'t> {
+    pub item: ItemId,
     pub fields: Fields<'t>,
+    /// The block of its outline, and those of its holes by the number of their phrase.
+    pub outline: Option<Fields<'t>>,
+    pub holes: Vec<(usize, Fields<'t>)>,
     pub draft: State<Option<Rc<Draft>>>,
 }
 
@@ -26,15 +39,141 @@ pub(super) enum Standing {
     Behind,
 }
 
-/// A panel drawn.
+/// A panel drawn and cut.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// The panel.
+    pub item: ItemId,
+    /// Its name.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Its own scope, for names of rows of edges.
+    pub(super) scope: ScopeId,
+    /// Its fabric, or the sari it is.
+    pub fabric: Option<ItemId>,
+    /// Angle from +y to the warp, rad.
+    pub grain: f64,
+    /// Side of its grid cells, m.
+    pub cell: Option<f64>,
+    /// Contact order.
+    pub layer: i32,
+    /// Whether its face lies towards the wearer.
+    pub inside: bool,
+    /// Edges as drawn, before folds and darts.
+    pub(super) drawn: Vec<Drawn>,
+    /// The pieces that are cut: one, or one for each name of `pair`.
+    pub pieces: Vec<CutPiece>,
+}
+
+impl PartialEq for Draft {
+    fn eq(&self, other: &Self) -> bool {
+        self.item == other.item && self.pieces == other.pieces
+    }
+}
+
+/// A piece of cloth as it is cut.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Draft {}
+pub struct CutPiece {
+    /// Which of a pair: `left`.
+    pub side: Option<String>,
+    /// Outline and holes.
+    pub loops: Vec<Loop>,
+    /// Named edges.
+    pub edges: Vec<CutEdge>,
+    /// Legs of darts to be sewn, both walked from the edge to the tip.
+    pub darts: Vec<CutDart>,
+    /// Match marks.
+    pub notches: Vec<Notch>,
+}
+
+/// A named edge of a cut piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutEdge {
+    /// Its name.
+    pub name: String,
+    /// Which half of an unfolded piece: `left`.
+    pub half: Option<String>,
+    /// Where it is declared.
+    pub span: Span,
+    /// Runs in the direction of drawing, with the places they take on the flat edge, m.
+    pub runs: Vec<(Run, (f64, f64))>,
+    /// Its length before darts, m.
+    pub flat: f64,
+}
+
+/// A dart of a cut piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutDart {
+    /// Its label, with its half.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Its legs.
+    pub legs: [Run; 2],
+}
+
+impl CutPiece {
+    /// The path of a run's piece.
+    pub fn path(&self, run: &Run) -> Option<&BezPath> {
+        self.loops.get(run.ring)?.pieces.get(run.piece).map(|piece| &piece.path)
+    }
+
+    /// The point at an arc length of a piece.
+    pub fn point(&self, run: &Run, arc: f64) -> Point {
+        self.path(run).map_or(Point::ZERO, |path| crate::geometry::curve::at(path, arc).0)
+    }
+
+    /// First and last point of a row of runs.
+    pub fn ends(&self, runs: &[Run]) -> Option<(Point, Point)> {
+        let (first, last) = (runs.first()?, runs.last()?);
+        Some((self.point(first, first.from), self.point(last, last.to)))
+    }
+}
+
+impl Draft {
+    /// The name of a piece as panel: `front`, `sleeve.left`.
+    pub fn piece_name(&self, piece: &CutPiece) -> String {
+        match &piece.side {
+            Some(side) => format!("{}.{side}", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Names of its edges, each once, in the order of drawing.
+    pub fn edge_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for edge in self.pieces.first().map_or(&[][..], |piece| &piece.edges) {
+            if !names.contains(&edge.name.as_str()) {
+                names.push(&edge.name);
+            }
+        }
+        names
+    }
+
+    /// Names of its halves and copies.
+    pub fn parts(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for piece in &self.pieces {
+            names.extend(piece.side.as_deref());
+            names.extend(piece.edges.iter().filter_map(|edge| edge.half.as_deref()));
+        }
+        let mut seen: Vec<&str> = Vec::new();
+        for name in names {
+            if !seen.contains(&name) {
+                seen.push(name);
+            }
+        }
+        seen
+    }
+}
 
 impl<'t> Evaluator<'t> {
-    pub(super) fn draft(&mut self, _id: ItemId) -> Option<Draft> {
-        None
-    }
-    pub(super) fn own_edge(&mut self, _instance: InstanceId, _binding: BindingId) -> Value {
-        Value::Poison
+    /// The panel of that number, drawn.
+    pub fn panel(&mut self, id: ItemId, from: Span) -> Option<Rc<Draft>> {
+        match self.make(id, from)? {
+            super::item::Made::Panel(draft) => Some(draft),
+            _ => None,
+        }
     }
 }

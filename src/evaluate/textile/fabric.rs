@@ -66,7 +66,11 @@ pub(in crate::evaluate) fn fabric(ev: &mut Evaluator<'_>, id: ItemId) -> Option<
     let friction = stated(ev, &fields, "friction", Dimension::NUMBER, 0.0, 2.0);
     let poisson = stated(ev, &fields, "poisson", Dimension::NUMBER, 0.0, 0.49);
     let damping = stated(ev, &fields, "damping", Dimension::NUMBER, 0.0, 1.0);
-    let structure = structure(ev, &fields, own_mass);
+    // Read for their dimensions; the elastic cloth has no hysteresis, and panels no roll yet.
+    let idle = both(ev, &fields, "bending_hysteresis", Dimension::FORCE, 0.0, 1e2).is_ok()
+        & stated(ev, &fields, "shear_hysteresis", Dimension::TENSION, 0.0, 1e4).is_ok()
+        & stated(ev, &fields, "width", Dimension::LENGTH, 0.05, 10.0).is_ok();
+    let structure = structure(ev, &fields, own_mass).filter(|_| idle);
     let sheets: Vec<Sheet> = [kes, fast].into_iter().flatten().collect::<Option<Vec<Sheet>>>()?;
     let mut one = |name: &str, own: Option<Span>, told: &[Option<Span>]| {
         let mut places: Vec<Span> = own.into_iter().chain(told.iter().copied().flatten()).collect();

@@ -1,1 +1,263 @@
+//! What the words of textiles, saris and bodies make.
 
+use crate::evaluate::item::{ItemId, Made};
+use crate::evaluate::{Evaluator, module};
+use crate::garment::sari::{BandFill, Sari};
+use crate::garment::scene::BodyRequest;
+use crate::textile::fabric::{Fabric, Structure};
+use crate::textile::knit::Stitch;
+use crate::textile::weave::Weave;
+use crate::textile::yarn::Twist;
+use crate::world::{Memory, World};
+
+/// The last item of a text, made, and the codes of what was told.
+fn made(text: &str) -> (Option<Made>, Vec<String>) {
+    let mut world = Memory::new([("test.garment", text)]);
+    let root = world.open("test.garment").unwrap();
+    let (files, asked, mut told) = module::load(&mut world, root, &[]);
+    let mut ev = Evaluator::new(&files, &asked, root);
+    ev.file(&[]);
+    let last = (0..ev.items.len())
+        .map(ItemId)
+        .filter(|id| ev.item(*id).span.file == root)
+        // The parts that a sari writes in its own block are items too.
+        .filter(|id| !["ang", "lower kath", "upper kath", "padar"].contains(&&*ev.item(*id).name))
+        .next_back();
+    let made = last.and_then(|id| {
+        let span = ev.item(id).span;
+        ev.make(id, span)
+    });
+    told.extend(std::mem::take(&mut ev.told));
+    (made, told.into_iter().map(|told| told.code).collect())
+}
+
+/// The last item of a text that is sound.
+fn sound(text: &str) -> Made {
+    let (made, told) = made(text);
+    assert!(told.is_empty(), "{told:?} in {text}");
+    made.unwrap_or_else(|| panic!("nothing made of {text}"))
+}
+
+fn fabric(text: &str) -> Fabric {
+    match sound(text) {
+        Made::Fabric(fabric) => (*fabric).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn weave(text: &str) -> Weave {
+    match sound(&format!("weave w {{ {text} }}")) {
+        Made::Weave(weave) => (*weave).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn sari(text: &str) -> Sari {
+    match sound(text) {
+        Made::Sari(sari, _) => (*sari).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn near(found: f64, wanted: f64) {
+    assert!((found - wanted).abs() <= 1e-9 * wanted.abs(), "{found} is not {wanted}");
+}
+
+#[test]
+fn a_yarn_has_si_units_and_the_defaults_of_the_language() {
+    let Made::Yarn(yarn) = sound("yarn y { count: 30Ne   twist: 600turns/m S   fibre: wool }")
+    else {
+        panic!("a yarn")
+    };
+    // A pound in 840 yards is 590.54 tex.
+    assert!((yarn.count * 1e6 - 590.541 / 30.0).abs() < 1e-3);
+    near(yarn.twist, 600.0);
+    assert_eq!((yarn.direction, yarn.plies), (Twist::S, 1));
+    let Made::Yarn(same) = sound("yarn y { count: 20tex   twist: 600/m }") else {
+        panic!("a yarn")
+    };
+    near(same.twist, 600.0);
+    assert_eq!(same.direction, Twist::Z);
+}
+
+#[test]
+fn a_matrix_reads_as_it_hangs_and_a_draft_gives_the_same_cloth() {
+    let matrix = weave("matrix: |1000|0100|0010|0001|");
+    assert_eq!(matrix.rows[0], [false, false, false, true], "the bottom row is the first pick");
+    let turned = weave("rows: downwards   matrix: |0001|0010|0100|1000|");
+    assert_eq!(matrix.rows, turned.rows);
+    let draft = weave("threading: 1..4   tieup: [4], [3], [2], [1]   treadling: 1..4");
+    assert_eq!(draft.rows, matrix.rows);
+    let plan = weave("threading: 4..1   liftplan: [1], [2], [3], [4]");
+    assert_eq!(plan.rows, matrix.rows);
+    assert_eq!(weave("twill 2/1/1/2 S move 1").ends(), 6);
+    assert_eq!(weave("let n = 3; basket n").ends(), 6);
+    assert_eq!(weave("satin 8 move 3").rows, Weave::satin(8, 3).unwrap().rows);
+}
+
+#[test]
+fn a_sheet_of_measurements_becomes_si_units() {
+    let kes = fabric(
+        "fabric f { kes { B: 0.032gf.cm2/cm, 0.028gf.cm2/cm   G: 0.28gf/cm/deg   EM: 2.1%, 4.4% \
+         LT: 1   MIU: 0.17   W: 6.5mg/cm2   T0: 0.16mm   2HB: 0.011gf.cm/cm   RT: 62% } }",
+    );
+    near(kes.bending[0], 0.032 * 9.80665e-5);
+    near(kes.bending[1], 0.028 * 9.80665e-5);
+    near(kes.shear, 0.28 * 0.980665 * 180.0 / std::f64::consts::PI);
+    // A straight curve (LT = 1) reaches 500 gf/cm at EM.
+    near(kes.tensile[0], 490.3325 / 0.021);
+    near(kes.friction, 0.17);
+    near(kes.mass, 0.065);
+    near(kes.thickness, 0.16e-3);
+    let fast = fabric("fabric f { fast { W: 200g/m2   C: 20mm   E20: 1%   EB5: 3% } }");
+    // B = W g C³: 200 g/m² and 20 mm make 15.69 µN·m; E20 is the strain at 19.6 N/m.
+    near(fast.bending[0], 0.2 * 9.80665 * 8e-6);
+    near(fast.tensile[1], 1961.33);
+    near(fast.shear, 41.0);
+}
+
+#[test]
+fn what_a_fabric_does_not_say_follows_from_its_yarns_and_mass() {
+    let yarn = "yarn y { count: 20tex   color: #112233 }\n";
+    let woven =
+        fabric(&format!("{yarn}fabric f {{ warp: y at 24/cm   weft: y at 20/cm color red }}"));
+    near(woven.mass, woven.structure.mass());
+    let Structure::Woven { weave, warp, weft } = &woven.structure else { panic!("woven") };
+    assert_eq!(weave.rows, Weave::plain().rows);
+    near(warp.spacing, 0.01 / 24.0);
+    assert_ne!(warp.colour, weft.colour);
+    // A cloth without yarns gets a cotton thread that makes up its mass.
+    let bare = fabric("fabric f { mass: 150g/m2 }");
+    assert!((bare.structure.mass() - 0.15).abs() < 1e-6);
+    // The default is the measured cotton, scaled: a quarter of its mass has an eighth of its B.
+    let light = fabric("fabric f { mass: 64.45g/m2 }");
+    near(light.bending[0], 1.998595e-5 / 8.0);
+    let knit = fabric(&format!("{yarn}fabric f {{ structure: rib   yarn: y }}"));
+    assert!(matches!(knit.structure, Structure::Knitted { .. }));
+}
+
+#[test]
+fn a_copy_replaces_what_it_says_anew() {
+    let copy = fabric("fabric warm = wool with { mass: 300g/m2   friction: 0.5 }");
+    near(copy.mass, 0.3);
+    near(copy.friction, 0.5);
+    near(copy.bending[0], 1.319975e-5);
+}
+
+#[test]
+fn charts_are_read_from_the_bottom_and_by_their_longest_keys() {
+    let Made::Knit(knit) = sound("knit k { chart: |..--|....|   gauge: 22 x 30 per 10cm }") else {
+        panic!("a knit")
+    };
+    assert_eq!(knit.rows[0], [Stitch::Face; 4]);
+    assert_eq!(knit.rows[1][2], Stitch::Back);
+    near(knit.wales, 220.0);
+    near(knit.courses, 300.0);
+    let Made::Motif(motif) = sound(
+        "motif m { legend { \"*\": #ff0000   \"**\": #00ff00   \" \": none }
+         picture: |* **|.  *|   size: 4mm x 2mm }",
+    ) else {
+        panic!("a motif")
+    };
+    let shown: Vec<Vec<u8>> = motif
+        .rows
+        .iter()
+        .map(|row| {
+            row.iter()
+                .map(|cell| cell.map_or(b'.', |c| if c.0[0] > 0 { b'r' } else { b'g' }))
+                .collect()
+        })
+        .collect();
+    assert_eq!(shown, [b"...r".to_vec(), b"r.gg".to_vec()]);
+}
+
+#[test]
+fn a_sari_has_one_of_six_layouts() {
+    let parts = [
+        "ang { ground: red }",
+        "kath lower { width: 5cm }",
+        "kath upper { width: 4cm }",
+        "padar { length: 70cm }",
+    ];
+    for choice in 0..16_u32 {
+        let said: Vec<&str> =
+            (0..4).filter(|bit| choice >> bit & 1 == 1).map(|bit| parts[bit as usize]).collect();
+        let text = format!(
+            "fabric c {{ mass: 70g/m2 }}\nsari s of c {{ size: 5.5m x 1.1m; {} }}",
+            said.join("; ")
+        );
+        let (ang, lower, upper) = (choice & 1 > 0, choice & 2 > 0, choice & 4 > 0);
+        let (made, told) = made(&text);
+        if ang && (lower || !upper) {
+            assert!(told.is_empty() && made.is_some(), "{told:?} in {text}");
+        } else {
+            assert_eq!(told, ["E0701"], "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_sari_takes_its_parts_from_anywhere_and_divides_its_length_evenly() {
+    let made = sari(
+        "fabric c { warp: organzine at 44/cm color #3b1742   weft: tram at 40/cm color #7a1f3d   mass: 75g/m2 }
+         kath mine { width: 10cm   ground: gold; repeat peacock every 18cm in red }
+         sari s of c {
+             size: 5.5m x 1.15m
+             ang { spot buti every 9cm x 9cm half_drop thinning 100% -> 25% from padar }
+             kath lower = mine
+             kath upper = mine with { width: 9cm }
+             padar = lotus_end
+         }",
+    );
+    assert_eq!(made.ang.ground.0[..3], [0x3b, 0x17, 0x42], "the ground is the warp's colour");
+    assert_eq!(made.ang.shot.map(|colour| colour.0[0]), Some(0x7a));
+    assert_eq!(made.ang.spots[0].thinning, [1.0, 0.25]);
+    let (lower, width) = made.lower_kath.clone().unwrap();
+    near(width, 0.1);
+    near(made.upper_kath.as_ref().unwrap().1, 0.09);
+    // 5.5 m / 18 cm = 30.6: 31 peacocks of 17.74 cm.
+    near(lower.repeats[0].pitch, 5.5 / 31.0);
+    let (padar, length) = made.padar.unwrap();
+    near(padar.bands.iter().map(|band| band.length).sum(), length);
+    assert!(
+        padar
+            .bands
+            .iter()
+            .any(|band| matches!(&band.fill, BandFill::Motif(m) if m.name == "parrot"))
+    );
+}
+
+fn wearer(inside: &str) -> BodyRequest {
+    let text = format!("garment g {{ wearer lady = {inside} }}");
+    match made(&text).0 {
+        Some(Made::Wearer(request)) => (*request).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_wearer_has_every_measure_of_her_size_and_her_own() {
+    let usual = wearer("female");
+    near(usual.measures["bust"], 0.88);
+    near(usual.measures["waist_to_floor"], 1.05);
+    let other = wearer("female { size: EU 42   hip: 111cm }");
+    near(other.measures["bust"], 0.96);
+    near(other.measures["hip"], 1.11);
+    assert_eq!(usual.measures.len(), other.measures.len());
+    let man = wearer("male { size: \"EU 50\" }");
+    for (name, length) in [
+        ("chest", 1.0),
+        ("waist", 0.88),
+        ("hip", 1.03),
+        ("neck", 0.4),
+        ("shoulder", 0.155),
+        ("armhole_depth", 0.24),
+        ("upper_arm", 0.31),
+        ("arm_length", 0.65),
+        ("wrist", 0.175),
+        ("body_rise", 0.27),
+        ("inseam", 0.82),
+    ] {
+        near(man.measures[name], length);
+    }
+}

@@ -52,6 +52,12 @@ pub(in crate::evaluate) fn yarn(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Ya
         Some(arg) => ev.colour(arg),
         None => Some(NATURAL),
     };
+    // Read for their dimensions; the pictures draw every yarn alike smooth.
+    for word in ["hairiness", "friction"] {
+        if let Some(arg) = fields.value(word) {
+            ev.within_range(arg, Dimension::NUMBER, 0.0, 2.0)?;
+        }
+    }
     let count = count?;
     let diameter = match fields.value("diameter") {
         Some(arg) => ev.within_range(arg, Dimension::LENGTH, 1e-6, 0.05),

@@ -25,7 +25,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "dart",
-                "on EDGE at POSITION width LENGTH ( depth LENGTH | to POINT )",
+                "on EDGE at POSITION [ from EDGE ] width LENGTH ( depth LENGTH | to POINT )",
                 "a wedge with equal legs, cut out and sewn",
             ),
             opening(
@@ -34,7 +34,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 Kind::Outline,
                 "a closed inner outline: `hole from P { edges }` or `hole circle at P radius L`",
             ),
-            action("notch", "on EDGE at POSITION", "a match mark"),
+            action("notch", "on EDGE at POSITION [ from EDGE ]", "a match mark"),
             action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
             action(
                 "pair",

@@ -1,0 +1,539 @@
+//! Garments and scenes: everything one drape needs, from the lines of their blocks.
+
+use super::Evaluator;
+use super::fields::{Arg, Fields, Phrase};
+use super::item::{ItemId, Made, root};
+use super::panel::edge::Mark;
+use super::panel::{Draft, Standing};
+use super::value::Value;
+use super::words::Kind;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::garment::Garment;
+use crate::garment::cloth::Surface;
+use crate::garment::panel::{NamedEdge, Panel};
+use crate::garment::scene::{Phase, Placement};
+use crate::garment::seam::{Attachment, PanelRun, Pin, PinTarget, Pinned, Seam, SeamKind};
+use crate::units::{self, Dimension};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Panels one garment may have.
+const PANELS: usize = 2_000;
+
+/// A garment while it is put together.
+pub(super) struct Making {
+    pub garment: Garment,
+    /// Where each piece of a panel stands in the garment.
+    pub numbers: BTreeMap<(ItemId, usize), usize>,
+    pub drafts: BTreeMap<ItemId, Rc<Draft>>,
+    /// Where each wearer stands in the garment.
+    pub bodies: BTreeMap<ItemId, usize>,
+    fabrics: BTreeMap<ItemId, usize>,
+}
+
+impl Making {
+    pub(super) fn new(name: &str, span: Span) -> Self {
+        Making {
+            garment: Garment {
+                name: name.to_owned(),
+                span,
+                fabrics: Vec::new(),
+                panels: Vec::new(),
+                seams: Vec::new(),
+                bodies: Vec::new(),
+                solids: Vec::new(),
+                attachments: Vec::new(),
+                pins: Vec::new(),
+                schedule: Vec::new(),
+                pictures: Vec::new(),
+            },
+            numbers: BTreeMap::new(),
+            drafts: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            fabrics: BTreeMap::new(),
+        }
+    }
+}
+
+impl<'t> Evaluator<'t> {
+    /// Works out the whole file: every item, so that all mistakes are told, and of these the
+    /// garments, scenes and pictured saris that are wanted.
+    pub(super) fn file(&mut self, names: &[String]) -> Vec<Garment> {
+        let (_, fields) = self.open_files();
+        let mut garments = Vec::new();
+        let mut known: Vec<String> = Vec::new();
+        for phrase in &fields.phrases {
+            let before = self.errors();
+            let made = match (phrase.word.name, phrase.item) {
+                ("garment", Some(id)) => self.garment(id),
+                ("scene", Some(id)) => self.scene(id),
+                ("picture", _) => self.pictured(phrase),
+                _ => continue,
+            };
+            if let Some(id) = phrase.item {
+                known.push(self.item(id).name.clone());
+            }
+            garments.extend(made.filter(|_| self.errors() == before));
+        }
+        self.make_all(self.root);
+        self.check_names();
+        if names.is_empty() {
+            return garments;
+        }
+        known.extend(garments.iter().map(|garment| garment.name.clone()));
+        for name in names {
+            if !known.contains(name) {
+                let label = self.meant(name, known.iter().map(String::as_str));
+                self.tell(
+                    Diagnostic::new("E0204", format!("this file has no garment or scene `{name}`"))
+                        .at(Span::new(self.root, 0, 0), label),
+                );
+            }
+        }
+        garments.retain(|garment| names.contains(&garment.name));
+        garments
+    }
+
+    fn errors(&self) -> usize {
+        self.told.iter().filter(|diagnostic| diagnostic.is_error()).count()
+    }
+
+    fn garment(&mut self, id: ItemId) -> Option<Garment> {
+        let fields = self.open_item(id)?;
+        let (name, span) = (self.item(id).name.clone(), self.item(id).span);
+        let mut making = Making::new(&name, span);
+        self.stand(&fields);
+        self.wearers(&fields, &mut making);
+        let cell = match fields.value("grid") {
+            Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-4, 1.0),
+            None => None,
+        };
+        for phrase in fields.all("panel") {
+            let Some(panel) = phrase.item else { continue };
+            self.add_panel(panel, cell, &mut making);
+        }
+        if making.garment.panels.is_empty() && fields.all("panel").next().is_none() {
+            self.tell(
+                Diagnostic::new("E0208", format!("garment `{name}` has no panels"))
+                    .at(span, "here")
+                    .help("such as `panel front of denim { … }`"),
+            );
+        }
+        let whole = fields
+            .all("panel")
+            .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
+        self.places(&fields, &mut making);
+        let sewn = self.seams(&fields, &mut making);
+        self.holds(&fields, &mut making);
+        self.checks(&fields);
+        self.schedule(&fields, &mut making);
+        self.pictures(&fields, &mut making);
+        if whole && sewn {
+            self.led(&mut making);
+        }
+        Some(making.garment)
+    }
+
+    /// How panels stand to the wearer, read from the words of the `place` lines before any panel
+    /// is drawn: it names the halves of unfolded pieces.
+    fn stand(&mut self, fields: &Fields<'t>) {
+        for phrase in fields.all("place") {
+            let standing = if phrase.says("before") {
+                Standing::Before
+            } else if phrase.says("behind") {
+                Standing::Behind
+            } else {
+                continue;
+            };
+            let Some(name) = phrase.head.first().and_then(|expr| root(expr)) else { continue };
+            let Some(binding) = self.find(phrase.scope, &name.text) else { continue };
+            let ids: Vec<ItemId> = match &self.bindings[binding.0].what {
+                super::scope::What::Item(id) => vec![*id],
+                super::scope::What::Family(members) => members.values().copied().collect(),
+                _ => continue,
+            };
+            for id in ids {
+                self.sides.entry(id).or_insert(standing);
+            }
+        }
+    }
+
+    pub(super) fn wearers(&mut self, fields: &Fields<'t>, making: &mut Making) {
+        for phrase in fields.all("wearer") {
+            let Some(id) = phrase.item else { continue };
+            if let Some(request) = self.wearer(id, phrase.span) {
+                making.bodies.insert(id, making.garment.bodies.len());
+                making.garment.bodies.push((*request).clone());
+            }
+        }
+    }
+
+    /// Adds the pieces of a panel to the garment.
+    fn add_panel(&mut self, id: ItemId, cell: Option<f64>, making: &mut Making) {
+        let span = self.item(id).span;
+        let Some(draft) = self.panel(id, span) else { return };
+        let Some(fabric_item) = draft.fabric else {
+            if !self.says_fabric(id) {
+                self.tell(
+                    Diagnostic::new(
+                        "E0208",
+                        format!("panel `{}` must be given a fabric", draft.name),
+                    )
+                    .at(span, "missing here")
+                    .help(format!("`panel {} of cotton {{ … }}`", draft.name)),
+                );
+            }
+            making.drafts.insert(id, draft);
+            return;
+        };
+        let Some(fabric) = self.fabric_number(fabric_item, span, making) else {
+            making.drafts.insert(id, draft);
+            return;
+        };
+        for (number, piece) in draft.pieces.iter().enumerate() {
+            if making.garment.panels.len() >= PANELS {
+                self.tell(
+                    Diagnostic::new("E0210", format!("more than {PANELS} pieces in one garment"))
+                        .at(span, "here"),
+                );
+                return;
+            }
+            making.numbers.insert((id, number), making.garment.panels.len());
+            let edges = piece
+                .edges
+                .iter()
+                .map(|edge| NamedEdge {
+                    name: match &edge.half {
+                        Some(half) => format!("{half}.{}", edge.name),
+                        None => edge.name.clone(),
+                    },
+                    span: edge.span,
+                    runs: edge.runs.iter().map(|(run, _)| *run).collect(),
+                })
+                .collect();
+            let mirrored = number > 0;
+            making.garment.panels.push(Panel {
+                name: draft.piece_name(piece),
+                span,
+                fabric,
+                grain: if mirrored { -draft.grain } else { draft.grain },
+                cell: draft.cell.or(cell),
+                layer: draft.layer,
+                loops: piece.loops.clone(),
+                edges,
+                notches: piece.notches.clone(),
+                surface: Surface::Fabric,
+                placement: Placement::Led,
+            });
+        }
+        making.drafts.insert(id, draft);
+    }
+
+    /// Whether a panel or one it copies names a fabric, right or wrong.
+    fn says_fabric(&self, id: ItemId) -> bool {
+        let item = self.item(id);
+        item.phrase.says("of") || item.phrase.says("=")
+    }
+
+    /// The number of a fabric in the garment.
+    pub(super) fn fabric_number(
+        &mut self,
+        id: ItemId,
+        at: Span,
+        making: &mut Making,
+    ) -> Option<usize> {
+        if let Some(number) = making.fabrics.get(&id) {
+            return Some(*number);
+        }
+        let fabric = self.fabric(id, at)?;
+        let number = making.garment.fabrics.len();
+        making.garment.fabrics.push((*fabric).clone());
+        making.fabrics.insert(id, number);
+        Some(number)
+    }
+
+    fn places(&mut self, fields: &Fields<'t>, making: &mut Making) {
+        let mut said: BTreeMap<(ItemId, usize), Span> = BTreeMap::new();
+        for phrase in fields.all("place") {
+            let bodies = making.bodies.clone();
+            let Some(placed) = self.placements(phrase, &|id| bodies.get(&id).copied()) else {
+                // The piece is not told to be placed nowhere on top of this mistake.
+                self.note_place(phrase, making, &mut said);
+                continue;
+            };
+            for (piece, placement) in placed {
+                if let Some(before) = said.insert(piece, phrase.span) {
+                    let name = self.item(piece.0).name.clone();
+                    self.tell(
+                        Diagnostic::new("E0209", format!("`{name}` is placed twice"))
+                            .at(phrase.span, "here")
+                            .at(before, "and here"),
+                    );
+                }
+                if let Some(number) = making.numbers.get(&piece) {
+                    if let Some(panel) = making.garment.panels.get_mut(*number) {
+                        panel.placement = placement;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Marks the panel of a wrong `place` line as placed.
+    fn note_place(
+        &self,
+        phrase: &Phrase<'t>,
+        making: &mut Making,
+        said: &mut BTreeMap<(ItemId, usize), Span>,
+    ) {
+        let name = phrase.head.first().and_then(|expr| root(expr));
+        let binding = name.and_then(|name| self.find(phrase.scope, &name.text));
+        let Some(binding) = binding else { return };
+        if let super::scope::What::Item(id) = &self.bindings[binding.0].what {
+            for number in 0..2 {
+                said.insert((*id, number), phrase.span);
+                if let Some(panel) = making
+                    .numbers
+                    .get(&(*id, number))
+                    .and_then(|number| making.garment.panels.get_mut(*number))
+                {
+                    panel.placement = Placement::Flat { at: [0.0; 3], turn: [0.0; 3] };
+                }
+            }
+        }
+    }
+
+    /// Pieces that no `place` line and no row of seams leads anywhere are told (E0801).
+    fn led(&mut self, making: &mut Making) {
+        let garment = &making.garment;
+        let mut reached: Vec<bool> =
+            garment.panels.iter().map(|panel| panel.placement != Placement::Led).collect();
+        loop {
+            let mut moved = false;
+            for seam in &garment.seams {
+                let any = seam
+                    .a
+                    .iter()
+                    .chain(&seam.b)
+                    .any(|run| reached.get(run.panel).copied().unwrap_or(false));
+                if any {
+                    for run in seam.a.iter().chain(&seam.b) {
+                        if let Some(reached) = reached.get_mut(run.panel).filter(|r| !**r) {
+                            *reached = true;
+                            moved = true;
+                        }
+                    }
+                }
+            }
+            if !moved {
+                break;
+            }
+        }
+        let lost: Vec<(String, Span)> = garment
+            .panels
+            .iter()
+            .zip(&reached)
+            .filter(|(_, reached)| !**reached)
+            .map(|(panel, _)| (panel.name.clone(), panel.span))
+            .collect();
+        for (name, span) in lost {
+            self.tell(
+                Diagnostic::new("E0801", format!("`{name}` is placed nowhere"))
+                    .at(span, "no seam leads to a placed panel")
+                    .help(format!("such as `place {name} before lady.waist gap 3cm`")),
+            );
+        }
+    }
+
+    /// `attach`, `pin` and `fix`.
+    pub(super) fn holds(&mut self, fields: &Fields<'t>, making: &mut Making) {
+        for phrase in fields.all("attach") {
+            let Some(to) = phrase.value("to") else { continue };
+            let Some(mark) = self.landmark(to) else { continue };
+            let Some(&body) = making.bodies.get(&mark.wearer) else { continue };
+            let mut runs = Vec::new();
+            for arg in phrase.args() {
+                runs.extend(self.held_runs(arg, making).unwrap_or_default());
+            }
+            if !runs.is_empty() {
+                making.garment.attachments.push(Attachment {
+                    span: phrase.span,
+                    runs,
+                    body,
+                    landmark: mark.name,
+                });
+            }
+        }
+        let held: Vec<&Phrase<'t>> = fields
+            .phrases
+            .iter()
+            .filter(|phrase| matches!(phrase.word.name, "pin" | "fix"))
+            .collect();
+        for phrase in held {
+            let Some(to) = self.pin_target(phrase, making) else { continue };
+            for arg in phrase.args() {
+                let value = self.eval(arg.expr, arg.scope);
+                let what = match value {
+                    Value::Mark(Mark { draft, piece, at }) => {
+                        let panel = making.numbers.get(&(draft.item, piece)).copied();
+                        panel.map(|panel| Pinned::Point { panel, at })
+                    }
+                    _ => self.held_runs(arg, making).map(Pinned::Runs),
+                };
+                if let Some(what) = what {
+                    making.garment.pins.push(Pin { span: phrase.span, what, to: to.clone() });
+                }
+            }
+        }
+    }
+
+    fn pin_target(&mut self, phrase: &Phrase<'t>, making: &Making) -> Option<PinTarget> {
+        let Some(arg) = phrase.value("at") else { return Some(PinTarget::Here) };
+        match self.eval(arg.expr, arg.scope) {
+            Value::Measure { .. } => {
+                let mark = self.landmark(arg)?;
+                let body = *making.bodies.get(&mark.wearer)?;
+                Some(PinTarget::Landmark { body, name: mark.name })
+            }
+            Value::Poison => None,
+            _ => self.place_in_space(arg).map(PinTarget::Place),
+        }
+    }
+
+    /// The runs of the edges named where something is held.
+    fn held_runs(&mut self, arg: Arg<'t>, making: &Making) -> Option<Vec<PanelRun>> {
+        let value = self.eval(arg.expr, arg.scope);
+        let edges = match value {
+            Value::Poison => return None,
+            Value::Edges(edges) => edges,
+            other => {
+                let edge = match &other {
+                    Value::Item(id) | Value::Half(id, _) => {
+                        making.drafts.get(id).and_then(|draft| {
+                            let edge = draft.edge_names().first().copied()?;
+                            Some(format!("{}.{edge}", draft.name))
+                        })
+                    }
+                    _ => None,
+                };
+                let found = other.describe(|id| self.item(id).kind);
+                let text = self.snippet(arg.expr.span).to_owned();
+                let mut told = Diagnostic::new(
+                    "E0304",
+                    format!("`{text}` is {found}; `{}` wants edges", arg.of),
+                )
+                .at(arg.expr.span, "here");
+                if let Some(edge) = edge {
+                    told = told.help(format!("such as `{edge}`"));
+                }
+                self.tell(told);
+                return None;
+            }
+        };
+        let mut runs = Vec::new();
+        for edge in &edges {
+            for found in edge.find() {
+                if let Some(&panel) = making.numbers.get(&(edge.draft.item, found.piece)) {
+                    runs.extend(edge.runs(&found).into_iter().map(|run| PanelRun { panel, run }));
+                }
+            }
+        }
+        Some(runs)
+    }
+
+    /// `check A = B within L`, `check A < B`
+    pub(super) fn checks(&mut self, fields: &Fields<'t>) {
+        for phrase in fields.all("check") {
+            let Some(left) = phrase.arg(0) else { continue };
+            let Some(right) = phrase.value("=") else {
+                if self.condition(left) == Some(false) {
+                    self.tell(
+                        Diagnostic::new("E0806", "check failed")
+                            .at(left.expr.span, "this does not hold"),
+                    );
+                }
+                continue;
+            };
+            let (Some(a), Some(b)) = (self.any_quantity(left), self.any_quantity(right)) else {
+                continue;
+            };
+            if !a.fits(b.dimension) && !b.fits(a.dimension) {
+                self.tell(
+                    Diagnostic::new(
+                        "E0301",
+                        format!(
+                            "{} and {} cannot be compared",
+                            a.dimension.name(),
+                            b.dimension.name()
+                        ),
+                    )
+                    .at(left.expr.span, self.shown(a))
+                    .at(right.expr.span, self.shown(b)),
+                );
+                continue;
+            }
+            let slack = match phrase.value("within") {
+                Some(arg) => self.quantity(arg, a.dimension),
+                None => Some(1e-9 * (a.value.abs() + b.value.abs())),
+            };
+            let Some(slack) = slack else { continue };
+            if (a.value - b.value).abs() > slack {
+                let within = match phrase.says("within") {
+                    true => format!(" within {}", units::Quantity::new(slack, a.dimension)),
+                    false => String::new(),
+                };
+                self.tell(
+                    Diagnostic::new("E0806", format!("check failed: {a} is not {b}{within}"))
+                        .at(left.expr.span, a.to_string())
+                        .at(right.expr.span, b.to_string()),
+                );
+            }
+        }
+    }
+
+    /// Seams of the darts of all panels, then those that the text says; false if one is wrong.
+    fn seams(&mut self, fields: &Fields<'t>, making: &mut Making) -> bool {
+        for (id, draft) in &making.drafts {
+            for (number, piece) in draft.pieces.iter().enumerate() {
+                let Some(&panel) = making.numbers.get(&(*id, number)) else { continue };
+                for dart in &piece.darts {
+                    let [a, b] = dart.legs.map(|run| vec![PanelRun { panel, run }]);
+                    making.garment.seams.push(Seam {
+                        name: format!("{}.{}", draft.piece_name(piece), dart.name),
+                        span: dart.span,
+                        kind: SeamKind::Dart,
+                        a,
+                        b,
+                    });
+                }
+            }
+        }
+        let phrases: Vec<Phrase<'t>> = fields.all("seam").cloned().collect();
+        self.sew(&phrases, making)
+    }
+
+    /// A garment that a top-level `picture { of: … }` asks for: a sari over a line, or flat.
+    fn pictured(&mut self, phrase: &Phrase<'t>) -> Option<Garment> {
+        let block = phrase.block?;
+        let fields = self.read_plain(Kind::Picture, block, "the picture", phrase.scope);
+        let of = self.required(&fields, "of")?.arg(0)?;
+        let id = self.item_among(of, &[Kind::Sari, Kind::Garment, Kind::Scene])?;
+        let picture = self.picture(&fields)?;
+        if self.item(id).kind != Kind::Sari {
+            self.tell(
+                Diagnostic::new("E0207", "a picture of a garment stands inside the garment")
+                    .at(of.expr.span, "this is no sari")
+                    .help("move the picture into its block and drop `of`"),
+            );
+            return None;
+        }
+        let Some(Made::Sari(..)) = self.make(id, of.expr.span) else { return None };
+        let on_line = fields.get("show").and_then(|show| show.choice(0)) != Some("flat");
+        let mut making = self.hung(id, phrase.span, on_line)?;
+        making.garment.pictures.push(picture);
+        if making.garment.schedule.is_empty() {
+            making.garment.schedule.push(Phase::Settle { speed: 2e-3, within: 20.0, span: None });
+        }
+        Some(making.garment)
+    }
+}

@@ -1,0 +1,612 @@
+//! Seams: which edge runs against which, and whether their lengths agree.
+//!
+//! Nobody writes the direction of a seam. Walked along a sewing line, the cloth of one side lies
+//! to the left and the cloth of the other to the right, for then the face of one runs on into
+//! the face of the other (inside layers and `reversed` turn this round). A row of edges is
+//! walked in the order in which it is named; whether its cloth then lies to the left follows
+//! from how its edges join, on the panel or through other seams. Where that leaves both ways
+//! open (a ring of two), the other side of the seam decides, so that the first named meets the
+//! first named.
+
+use super::Evaluator;
+use super::fields::{Arg, Phrase, bare};
+use super::garment::Making;
+use super::panel::edge::EdgeRef;
+use super::value::Value;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::garment::panel::Run;
+use crate::garment::seam::{PanelRun, Seam, SeamKind};
+use crate::units::{self, Dimension};
+use kurbo::Point;
+
+/// Lengths may differ by so much, m, or by this share of the longer one.
+const TOLERANCE: (f64, f64) = (1e-3, 2e-3);
+
+/// Ends of edges nearer than this are one corner, m.
+const CORNER: f64 = 1e-4;
+
+/// An edge of one piece in a seam.
+#[derive(Clone, Debug)]
+struct Element {
+    panel: usize,
+    /// In the direction of drawing.
+    runs: Vec<Run>,
+    length: f64,
+    /// Whether the cloth lies to the left when it is walked as drawn.
+    left: bool,
+    ends: (Point, Point),
+    /// Half or copy that was not said: the seam is made once for each.
+    tag: Option<String>,
+    written: String,
+    edge: EdgeRef,
+}
+
+/// A corner of a piece.
+type Corner = (usize, Point);
+
+/// One side of a seam.
+struct Line {
+    span: Span,
+    elements: Vec<Vec<Element>>,
+}
+
+/// A seam of two sides that is yet to be directed.
+struct Pending<'p, 't> {
+    phrase: &'p Phrase<'t>,
+    /// Whether side a was sewn by an earlier arm of the same statement.
+    again: bool,
+    spans: (Span, Span),
+    a: Vec<Element>,
+    b: Vec<Element>,
+}
+
+fn same(a: Corner, b: Corner) -> bool {
+    a.0 == b.0 && libm::hypot(a.1.x - b.1.x, a.1.y - b.1.y) < CORNER
+}
+
+impl Element {
+    /// Start and end when walked with the cloth to the left (or to the right).
+    fn walked(&self, cloth_left: bool) -> (Corner, Corner) {
+        let (a, b) = ((self.panel, self.ends.0), (self.panel, self.ends.1));
+        if self.left == cloth_left { (a, b) } else { (b, a) }
+    }
+
+    fn runs(&self, cloth_left: bool) -> Vec<PanelRun> {
+        let panel = self.panel;
+        if self.left == cloth_left {
+            self.runs.iter().map(|&run| PanelRun { panel, run }).collect()
+        } else {
+            let turn = |run: &Run| Run { from: run.to, to: run.from, ..*run };
+            self.runs.iter().rev().map(|run| PanelRun { panel, run: turn(run) }).collect()
+        }
+    }
+}
+
+/// Corners that seams bring together.
+#[derive(Default)]
+struct Corners {
+    links: Vec<(Corner, Corner)>,
+}
+
+impl Corners {
+    /// Whether two corners are one, on the panel or through seams.
+    fn joined(&self, a: Corner, b: Corner) -> bool {
+        let mut reached = vec![a];
+        let mut next = 0;
+        while let Some(&at) = reached.get(next) {
+            if same(at, b) {
+                return true;
+            }
+            next += 1;
+            for &(p, q) in &self.links {
+                for (p, q) in [(p, q), (q, p)] {
+                    if same(at, p) && !reached.iter().any(|known| same(*known, q)) {
+                        reached.push(q);
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether a row joins end to end when walked with the cloth on that side.
+    fn chains(&self, row: &[Element], cloth_left: bool) -> bool {
+        row.windows(2)
+            .all(|pair| self.joined(pair[0].walked(cloth_left).1, pair[1].walked(cloth_left).0))
+    }
+}
+
+fn length(row: &[Element]) -> f64 {
+    row.iter().map(|element| element.length).sum()
+}
+
+impl<'t> Evaluator<'t> {
+    /// Makes the seams of a garment; false if one of them is wrong.
+    pub(super) fn sew(&mut self, phrases: &[Phrase<'t>], making: &mut Making) -> bool {
+        let mut pending: Vec<Pending<'_, 't>> = Vec::new();
+        let mut sound = true;
+        for phrase in phrases {
+            let lines: Option<Vec<Line>> =
+                phrase.args().into_iter().map(|arg| self.line_of(arg, making)).collect();
+            match lines {
+                Some(lines) => self.arms(phrase, &lines, &mut pending),
+                None => sound = false,
+            }
+        }
+        // Seams of single edges know their direction; they join the corners of rows.
+        let mut corners = Corners::default();
+        for dart in making.garment.seams.iter().filter(|seam| seam.kind == SeamKind::Dart) {
+            let mouth = |runs: &[PanelRun]| -> Option<Corner> {
+                let first = runs.first()?;
+                let panel = making.garment.panels.get(first.panel)?;
+                let piece = panel.loops.get(first.run.ring)?.pieces.get(first.run.piece)?;
+                Some((first.panel, crate::geometry::curve::at(&piece.path, first.run.from).0))
+            };
+            corners.links.extend(mouth(&dart.a).zip(mouth(&dart.b)));
+        }
+        for seam in &pending {
+            if let ([a], [b]) = (seam.a.as_slice(), seam.b.as_slice()) {
+                let (start, end) = a.walked(true);
+                let (from, to) = b.walked(seam.phrase.says("reversed"));
+                corners.links.extend([(start, from), (end, to)]);
+            }
+        }
+        let mut sewn: Vec<(PanelRun, Span)> = Vec::new();
+        let mut wrong: Vec<(Span, Span)> = Vec::new();
+        for seam in pending {
+            // What is wrong with the left is not told again of the right.
+            let spans = seam.spans;
+            if !wrong.contains(&spans)
+                && self.finish_seam(seam, &corners, making, &mut sewn).is_none()
+            {
+                wrong.push(spans);
+            }
+        }
+        self.sewn_twice(&sewn, making);
+        sound && wrong.is_empty()
+    }
+
+    /// The edges named on one side of a seam.
+    fn line_of(&mut self, arg: Arg<'t>, making: &Making) -> Option<Line> {
+        let edges = match self.eval(arg.expr, arg.scope) {
+            Value::Poison => return None,
+            Value::Edges(edges) => edges,
+            other => {
+                self.wrong(&other, "an edge", arg.expr.span);
+                return None;
+            }
+        };
+        let mut elements = Vec::new();
+        for edge in edges {
+            let mut alternatives = Vec::new();
+            for found in edge.find() {
+                let panel = *making.numbers.get(&(edge.draft.item, found.piece))?;
+                let runs = edge.runs(&found);
+                let piece = edge.draft.pieces.get(found.piece)?;
+                let ends = piece.ends(&runs)?;
+                let first = runs.first()?;
+                alternatives.push(Element {
+                    panel,
+                    length: runs.iter().map(Run::length).sum(),
+                    left: (first.to > first.from) != edge.draft.inside,
+                    ends,
+                    tag: (!found.tag.is_empty()).then(|| found.tag.join(".")),
+                    written: edge.written(&found),
+                    edge: edge.clone(),
+                    runs,
+                });
+            }
+            if alternatives.is_empty() {
+                return None;
+            }
+            elements.push(alternatives);
+        }
+        Some(Line { span: arg.expr.span, elements })
+    }
+
+    /// `A -> B -> C`: each further edge is paired with the first; edges of which a half was not
+    /// said make one seam for each half.
+    fn arms<'p>(
+        &mut self,
+        phrase: &'p Phrase<'t>,
+        lines: &[Line],
+        pending: &mut Vec<Pending<'p, 't>>,
+    ) {
+        let mut tags: Vec<String> = Vec::new();
+        let all = lines.iter().flat_map(|line| &line.elements);
+        for alternatives in all.filter(|alternatives| alternatives.len() > 1) {
+            let own: Vec<String> = alternatives.iter().filter_map(|e| e.tag.clone()).collect();
+            if tags.is_empty() {
+                tags = own;
+            } else if own.iter().any(|tag| !tags.contains(tag)) || own.len() != tags.len() {
+                let first = lines.first().map_or(phrase.span, |line| line.span);
+                self.tell(
+                    Diagnostic::new("E0505", "which halves are sewn together?")
+                        .at(first, format!("here are {}", tags.join(", ")))
+                        .at(phrase.span, format!("and here {}", own.join(", ")))
+                        .help("name the halves on both sides"),
+                );
+                return;
+            }
+        }
+        let choices: Vec<Option<String>> =
+            if tags.is_empty() { vec![None] } else { tags.into_iter().map(Some).collect() };
+        let Some((first, others)) = lines.split_first() else { return };
+        for tag in choices {
+            let pick = |line: &Line| -> Vec<Element> {
+                line.elements
+                    .iter()
+                    .filter_map(|alternatives| match alternatives.as_slice() {
+                        [only] => Some(only.clone()),
+                        many => many.iter().find(|element| element.tag == tag).cloned(),
+                    })
+                    .collect()
+            };
+            for (number, other) in others.iter().enumerate() {
+                pending.push(Pending {
+                    phrase,
+                    again: number > 0,
+                    spans: (first.span, other.span),
+                    a: pick(first),
+                    b: pick(other),
+                });
+            }
+        }
+    }
+
+    fn finish_seam(
+        &mut self,
+        seam: Pending<'_, 't>,
+        corners: &Corners,
+        making: &mut Making,
+        sewn: &mut Vec<(PanelRun, Span)>,
+    ) -> Option<()> {
+        let a_left = self.direction(&seam, corners)?;
+        let b_left = a_left == seam.phrase.says("reversed");
+        if !self.lengths_agree(&seam) {
+            return None;
+        }
+        let rows = |row: &[Element], left: bool| -> Vec<PanelRun> {
+            row.iter().flat_map(|element| element.runs(left)).collect()
+        };
+        let (a, b) = (rows(&seam.a, a_left), rows(&seam.b, b_left));
+        let names = |row: &[Element]| {
+            row.iter().map(|element| element.written.as_str()).collect::<Vec<_>>().join(" + ")
+        };
+        let name = format!("{} -> {}", names(&seam.a), names(&seam.b));
+        let parts = self.opened_parts(&seam, a_left)?;
+        for (from, to, kind) in parts {
+            let (a, b) = (share(&a, from, to), share(&b, from, to));
+            if a.is_empty() || b.is_empty() {
+                continue;
+            }
+            if !seam.again {
+                sewn.extend(a.iter().map(|run| (*run, seam.spans.0)));
+            }
+            sewn.extend(b.iter().map(|run| (*run, seam.spans.1)));
+            making.garment.seams.push(Seam {
+                name: name.clone(),
+                span: seam.phrase.span,
+                kind,
+                a,
+                b,
+            });
+        }
+        Some(())
+    }
+
+    /// Whether the cloth of side a lies to the left when it is walked as named.
+    fn direction(&mut self, seam: &Pending<'_, 't>, corners: &Corners) -> Option<bool> {
+        let ways = |row: &[Element]| match row {
+            [_] => (true, true),
+            row => (corners.chains(row, true), corners.chains(row, false)),
+        };
+        for (row, span) in [(&seam.a, seam.spans.0), (&seam.b, seam.spans.1)] {
+            if ways(row) == (false, false) {
+                let gap = row
+                    .windows(2)
+                    .find(|pair| {
+                        ![true, false].into_iter().any(|left| {
+                            corners.joined(pair[0].walked(left).1, pair[1].walked(left).0)
+                        })
+                    })
+                    .map(|pair| (pair[0].written.clone(), pair[1].written.clone()));
+                let message = match gap {
+                    Some((a, b)) => format!("`{a}` and `{b}` do not join end to end"),
+                    None => "these edges do not follow each other one way round".to_owned(),
+                };
+                self.tell(
+                    Diagnostic::new("E0504", message).at(span, "in this row").help(
+                        "name edges in the order in which they follow each other, on the piece or through seams of single edges",
+                    ),
+                );
+                return None;
+            }
+        }
+        let turned = seam.phrase.says("reversed");
+        let (a, b) = (ways(&seam.a), ways(&seam.b));
+        // Side b as it asks side a to be.
+        let b = if turned { b } else { (b.1, b.0) };
+        match (a.0 && b.0, a.1 && b.1) {
+            (true, _) => Some(true),
+            (false, true) => Some(false),
+            (false, false) => {
+                let (first, last) = (seam.a.first()?, seam.b.last()?);
+                self.tell(
+                    Diagnostic::new(
+                        "E0502",
+                        format!(
+                            "this seam would twist: with both faces outside, `{}` meets `{}`",
+                            first.written, last.written
+                        ),
+                    )
+                    .at(seam.spans.0, "this row")
+                    .at(seam.spans.1, "runs against this one")
+                    .help("exchange the names of `pair` or the order of one row; if a piece is meant to be inside out, add `reversed` to the seam"),
+                );
+                None
+            }
+        }
+    }
+
+    fn lengths_agree(&mut self, seam: &Pending<'_, 't>) -> bool {
+        let (a, b) = (length(&seam.a), length(&seam.b));
+        let (long, short) = (a.max(b), a.min(b));
+        let tolerance = TOLERANCE.0.max(TOLERANCE.1 * long);
+        let phrase = seam.phrase;
+        let allowed = if let Some(arg) = phrase.value("ease") {
+            self.within_range(arg, Dimension::LENGTH, 0.0, 10.0).map(|ease| short + ease)
+        } else if let Some(arg) = phrase.value("gathered") {
+            self.within_range(arg, Dimension::NUMBER, 1.0, 20.0).map(|times| short * times)
+        } else if let Some(arg) = phrase.value("stretched") {
+            self.within_range(arg, Dimension::NUMBER, 0.0, 5.0).map(|share| short * (1.0 + share))
+        } else {
+            Some(short)
+        };
+        let Some(allowed) = allowed else { return false };
+        if long <= allowed + tolerance {
+            return true;
+        }
+        let given = allowed - short;
+        let message = if given > 0.0 {
+            format!(
+                "these edges are sewn together but differ by {}; {} are allowed",
+                units::length(long - short),
+                units::length(given + tolerance)
+            )
+        } else {
+            format!(
+                "these edges are sewn together but differ by {}; {} are allowed",
+                units::length(long - short),
+                units::length(tolerance)
+            )
+        };
+        let ease = libm::ceil((long - short) * 1e3);
+        let follow = match (seam.a.as_slice(), seam.b.as_slice()) {
+            ([a], [b]) => format!(
+                "let one follow the other: `fit NAME in LOW..HIGH until {}.length = {}.length`; ",
+                a.edge.edge, b.written
+            ),
+            _ => "let one follow the other; ".to_owned(),
+        };
+        self.tell(
+            Diagnostic::new("E0501", message)
+                .at(seam.spans.0, units::length(a))
+                .at(seam.spans.1, units::length(b))
+                .help(format!(
+                    "{follow}or have it eased in: `ease {}`",
+                    if ease >= 10.0 {
+                        format!("{}cm", units::trimmed(ease / 10.0, 1))
+                    } else {
+                        format!("{ease}mm")
+                    }
+                )),
+        );
+        false
+    }
+
+    /// Shares of the seam's length with what each of them is: `open` and `zip`.
+    fn opened_parts(
+        &mut self,
+        seam: &Pending<'_, 't>,
+        a_left: bool,
+    ) -> Option<Vec<(f64, f64, SeamKind)>> {
+        let phrase = seam.phrase;
+        let said = phrase.value("open").map(|arg| (arg, true));
+        let Some((arg, open)) = said.or(phrase.value("zip").map(|arg| (arg, false))) else {
+            if let Some(from) = phrase.clause("from") {
+                self.tell(
+                    Diagnostic::new("E0207", "`from` goes with `open` or `zip`")
+                        .at(from.span, "here"),
+                );
+                return None;
+            }
+            return Some(vec![(0.0, 1.0, SeamKind::Plain)]);
+        };
+        let whole = length(&seam.a);
+        let quantity = self.quantity_of(arg, &[Dimension::LENGTH, Dimension::NUMBER])?;
+        let part =
+            if quantity.dimension.is_number() { quantity.value } else { quantity.value / whole };
+        if !(0.0..=1.0 + 1e-9).contains(&part) {
+            self.tell(
+                Diagnostic::new("E0303", format!("this seam is {} long", units::length(whole)))
+                    .at(arg.expr.span, "it cannot be open any further")
+                    .at(seam.spans.0, "the seam"),
+            );
+            return None;
+        }
+        let part = part.min(1.0);
+        let from_start = match phrase.value("from") {
+            Some(from) => self.from_start(seam, a_left, from)?,
+            None => true,
+        };
+        let (inner, rest) = if from_start {
+            ((0.0, part), (part, 1.0))
+        } else {
+            ((1.0 - part, 1.0), (0.0, 1.0 - part))
+        };
+        let mut parts = Vec::new();
+        if !open && inner.1 - inner.0 > 1e-9 {
+            parts.push((inner.0, inner.1, SeamKind::Zip));
+        }
+        if rest.1 - rest.0 > 1e-9 {
+            parts.push((rest.0, rest.1, SeamKind::Plain));
+        }
+        parts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(parts)
+    }
+
+    /// Whether the edge behind `from` touches the start of side a as it is walked.
+    fn from_start(&mut self, seam: &Pending<'_, 't>, a_left: bool, from: Arg<'t>) -> Option<bool> {
+        let (first, last) = (seam.a.first()?, seam.a.last()?);
+        let (start, end) = (first.walked(a_left).0, last.walked(a_left).1);
+        let name = bare(from.expr);
+        let touching = |element: &Element, corner: Corner, ev: &mut Self| -> Option<bool> {
+            let neighbour = match name {
+                Some(name) if element.edge.draft.edge_names().contains(&name.text.as_str()) => {
+                    vec![EdgeRef {
+                        edge: name.text.clone(),
+                        part: None,
+                        which: Default::default(),
+                        draft: element.edge.draft.clone(),
+                    }]
+                }
+                Some(_) => return Some(false),
+                None => match ev.eval(from.expr, from.scope) {
+                    Value::Edges(edges) => edges,
+                    Value::Poison => return None,
+                    other => {
+                        ev.wrong(&other, "an edge", from.expr.span);
+                        return None;
+                    }
+                },
+            };
+            Some(neighbour.iter().any(|edge| {
+                edge.find().iter().any(|found| {
+                    let ends = edge
+                        .draft
+                        .pieces
+                        .get(found.piece)
+                        .and_then(|piece| piece.ends(&edge.runs(found)));
+                    ends.is_some_and(|(p, q)| {
+                        [p, q].into_iter().any(|p| same((corner.0, p), corner))
+                    }) && edge.draft.item == element.edge.draft.item
+                })
+            }))
+        };
+        if touching(first, start, self)? {
+            return Some(true);
+        }
+        if touching(last, end, self)? {
+            return Some(false);
+        }
+        let known = first.edge.draft.edge_names().join(", ");
+        let text = self.snippet(from.expr.span).to_owned();
+        self.tell(
+            Diagnostic::new("E0504", format!("this seam does not end at `{text}`"))
+                .at(from.expr.span, "neither its start nor its end touches this")
+                .at(seam.spans.0, "the seam")
+                .help(format!("edges of `{}` are {known}", first.edge.draft.name)),
+        );
+        None
+    }
+
+    /// Places of edges that two seams take (E0503).
+    fn sewn_twice(&mut self, sewn: &[(PanelRun, Span)], making: &Making) {
+        let range = |run: &Run| (run.from.min(run.to), run.from.max(run.to));
+        for (i, (one, at)) in sewn.iter().enumerate() {
+            for (other, before) in sewn.iter().take(i) {
+                if one.panel != other.panel
+                    || one.run.ring != other.run.ring
+                    || one.run.piece != other.run.piece
+                {
+                    continue;
+                }
+                let (a, b) = (range(&one.run), range(&other.run));
+                let both = (a.0.max(b.0), a.1.min(b.1));
+                if both.1 - both.0 < 1e-5 {
+                    continue;
+                }
+                let name = making.garment.panels.get(one.panel).map_or("", |panel| {
+                    panel
+                        .edges
+                        .iter()
+                        .find(|edge| {
+                            edge.runs
+                                .iter()
+                                .any(|run| run.ring == one.run.ring && run.piece == one.run.piece)
+                        })
+                        .map_or(panel.name.as_str(), |edge| edge.name.as_str())
+                });
+                let panel =
+                    making.garment.panels.get(one.panel).map_or("", |panel| panel.name.as_str());
+                self.tell(
+                    Diagnostic::new(
+                        "E0503",
+                        format!(
+                            "`{panel}.{name}` is sewn twice, along {}",
+                            units::length(both.1 - both.0)
+                        ),
+                    )
+                    .at(*at, "here")
+                    .at(*before, "and here")
+                    .help("sew a part of the edge: `side[0cm..20cm]`"),
+                );
+                return;
+            }
+        }
+    }
+}
+
+/// The runs between two shares of a row's length.
+fn share(runs: &[PanelRun], from: f64, to: f64) -> Vec<PanelRun> {
+    let whole: f64 = runs.iter().map(|run| run.run.length()).sum();
+    let (low, high) = (from * whole, to * whole);
+    let mut passed = 0.0;
+    let mut out = Vec::new();
+    for part in runs {
+        let run = part.run;
+        let length = run.length();
+        let (a, b) = ((low - passed).max(0.0), (high - passed).min(length));
+        passed += length;
+        if b - a < 1e-7 {
+            continue;
+        }
+        let sense = if run.to > run.from { 1.0 } else { -1.0 };
+        let start = if a <= 1e-9 { run.from } else { run.from + sense * a };
+        let end = if b >= length - 1e-9 { run.to } else { run.from + sense * b };
+        out.push(PanelRun { panel: part.panel, run: Run { from: start, to: end, ..run } });
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(piece: usize, from: f64, to: f64) -> PanelRun {
+        PanelRun { panel: 0, run: Run { ring: 0, piece, from, to } }
+    }
+
+    #[test]
+    fn a_share_of_a_row_crosses_its_runs() {
+        let row = [run(0, 0.0, 1.0), run(3, 2.0, 0.0)];
+        let total = |runs: &[PanelRun]| runs.iter().map(|r| r.run.length()).sum::<f64>();
+        assert_eq!(share(&row, 0.0, 1.0), row);
+        let part = share(&row, 0.2, 0.5);
+        assert_eq!(part.len(), 2);
+        assert!((total(&part) - 0.9).abs() < 1e-12);
+        // The second run goes against its piece, so it is cut from its far end.
+        assert_eq!(part[1].run.from, 2.0);
+        assert!((part[1].run.to - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn corners_join_through_seams() {
+        let at = |x: f64| Point::new(x, 0.0);
+        let corners =
+            Corners { links: vec![((0, at(0.0)), (1, at(5.0))), ((1, at(5.0)), (2, at(1.0)))] };
+        assert!(corners.joined((0, at(0.0)), (2, at(1.0))));
+        assert!(!corners.joined((0, at(0.0)), (2, at(2.0))));
+    }
+}

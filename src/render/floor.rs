@@ -1,0 +1,169 @@
+//! The shadow of the figure on the floor.
+//!
+//! What the figure takes from the light on the floor, and what it sends back there, changes
+//! slowly over the picture. It is found with many paths at every few pixels, also where the
+//! figure hides the floor, and drawn out smoothly in between; the edges of the figure are no
+//! matter of it. The same numbers with the figure and without leave no grain where it does nothing.
+
+use super::Light3;
+use super::camera::Camera;
+use super::sample::Sampler;
+use super::trace::Tracer;
+use rayon::prelude::*;
+
+/// Pixels between the places that are looked at.
+const STEP: usize = 3;
+
+/// Paths at each.
+const PATHS: u32 = 32;
+
+/// Differences count against so many deviations of the grain.
+const TOLERANCE: f32 = 3.0;
+
+/// Light on the floor, at every few pixels of a view.
+pub struct Floor {
+    columns: usize,
+    rows: usize,
+    spots: Vec<Spot>,
+}
+
+/// One place.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    /// Light that arrives.
+    arrives: Light3,
+    /// Light that would arrive were the floor empty.
+    empty: Light3,
+    /// Variance of the mean of the first over the second.
+    grain: f32,
+}
+
+/// The paper behind, which nothing shades.
+const PAPER: Spot =
+    Spot { arrives: Light3::new(1.0, 1.0, 1.0), empty: Light3::new(1.0, 1.0, 1.0), grain: 0.0 };
+
+impl Floor {
+    /// The floor of a picture of `size` pixels; `view` is its number on the sheet.
+    pub fn traced<'a>(
+        tracer: impl Fn() -> Tracer<'a> + Sync + Send,
+        camera: &Camera,
+        view: u32,
+        size: [u32; 2],
+    ) -> Self {
+        let [columns, rows] = size.map(|n| (n as usize).div_ceil(STEP) + 1);
+        let spots = (0..columns * rows)
+            .into_par_iter()
+            .with_min_len(32)
+            .map_init(tracer, |tracer, at| {
+                let place = [(at % columns) as u32, (at / columns) as u32];
+                let share = |k: usize| (place[k] * STEP as u32) as f32 / size[k] as f32;
+                let ray = camera.ray(share(0), share(1));
+                let Some(at) = tracer.on_floor(&ray) else { return PAPER };
+                let open = tracer.openness(&at);
+                let mut sum = Sum::default();
+                for path in 0..PATHS {
+                    // Apart from the numbers of the pixels.
+                    let mut sampler = Sampler::new(!view, place, path, PATHS);
+                    let (arrives, empty) = tracer.light_on_floor(&at, &mut sampler);
+                    sum.add(arrives + (empty - arrives) * open, empty);
+                }
+                sum.mean()
+            })
+            .collect();
+        Floor { columns, rows, spots }
+    }
+
+    /// Takes the grain out.
+    pub fn smooth(&mut self) {
+        for pass in 0..3 {
+            let floor = &*self;
+            let smoothed = (0..floor.spots.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(|at| floor.smoothed(at, 1 << pass))
+                .collect();
+            self.spots = smoothed;
+        }
+    }
+
+    fn smoothed(&self, at: usize, step: i64) -> Spot {
+        const KERNEL: [f32; 3] = [0.25, 0.5, 0.25];
+        let here = self.spots[at];
+        let (x, y) = ((at % self.columns) as i64, (at / self.columns) as i64);
+        let doubt = 1.0 / (TOLERANCE * TOLERANCE * here.grain + 1e-6);
+        let mut sum = Spot { arrives: Light3::zeros(), empty: Light3::zeros(), grain: 0.0 };
+        let mut weight = 0.0;
+        for (dy, row) in KERNEL.iter().enumerate() {
+            for (dx, column) in KERNEL.iter().enumerate() {
+                let (px, py) = (x + (dx as i64 - 1) * step, y + (dy as i64 - 1) * step);
+                let tap = self.spot(px, py);
+                let off = here.shade() - tap.shade();
+                let w = row * column / (1.0 + off * off * doubt);
+                sum.arrives += tap.arrives * w;
+                sum.empty += tap.empty * w;
+                sum.grain += tap.grain * w * w;
+                weight += w;
+            }
+        }
+        Spot {
+            arrives: sum.arrives / weight,
+            empty: sum.empty / weight,
+            grain: sum.grain / (weight * weight),
+        }
+    }
+
+    fn spot(&self, x: i64, y: i64) -> Spot {
+        let column = x.clamp(0, self.columns as i64 - 1) as usize;
+        let row = y.clamp(0, self.rows as i64 - 1) as usize;
+        self.spots[row * self.columns + column]
+    }
+
+    /// What is left of the light at the middle of a pixel.
+    pub fn shadow(&self, x: usize, y: usize) -> Light3 {
+        let [across, down] = [x, y].map(|n| (n as f32 + 0.5) / STEP as f32);
+        let (column, row) = (across.floor(), down.floor());
+        let (mix, fall) = (across - column, down - row);
+        let at = |dx: i64, dy: i64| {
+            let spot = self.spot(column as i64 + dx, row as i64 + dy);
+            spot.arrives.zip_map(&spot.empty, |a, e| a / e.max(1e-6))
+        };
+        let top = at(0, 0) * (1.0 - mix) + at(1, 0) * mix;
+        let bottom = at(0, 1) * (1.0 - mix) + at(1, 1) * mix;
+        top * (1.0 - fall) + bottom * fall
+    }
+}
+
+impl Spot {
+    fn shade(&self) -> f32 {
+        self.arrives.sum() / self.empty.sum().max(1e-6)
+    }
+}
+
+/// Sums over the paths of a place.
+#[derive(Default)]
+struct Sum {
+    arrives: Light3,
+    empty: Light3,
+    shade: f32,
+    square: f32,
+}
+
+impl Sum {
+    fn add(&mut self, arrives: Light3, empty: Light3) {
+        self.arrives += arrives;
+        self.empty += empty;
+        let shade = arrives.sum() / empty.sum().max(1e-6);
+        self.shade += shade;
+        self.square += shade * shade;
+    }
+
+    fn mean(&self) -> Spot {
+        let count = PATHS as f32;
+        let shade = self.shade / count;
+        Spot {
+            arrives: self.arrives / count,
+            empty: self.empty / count,
+            grain: (self.square / count - shade * shade).max(0.0) / count,
+        }
+    }
+}
