@@ -13,7 +13,7 @@
 use super::boxes::{self, Extent};
 use super::cloth::Cloth;
 use super::conjugate::Extra;
-use super::matrix::{Lane, Matrix, Pattern, add, lane, vector};
+use super::matrix::{Lane, Matrix, add, lane, vector};
 use super::proximity::Pair;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -27,6 +27,10 @@ const THIN: f64 = 1.0e-3;
 /// The same as a share of the grid's cell: more would make a sheet repel itself.
 const SHARE: f64 = 0.3;
 
+/// Greatest slack of a list of near pairs, as a share of the grid's cell: neighbours in a flat
+/// sheet do not come on it.
+const SLACK: f64 = 0.2;
+
 /// Contact stiffness per area, N/m³.
 const STIFFNESS: f64 = 1.0e6;
 
@@ -35,6 +39,11 @@ const STIFFEST: f64 = 100.0;
 
 /// Share of the distance of a pair that a step must leave.
 const KEEP: f64 = 0.2;
+
+/// Times that a movement is cut by what its hits allow, and then times that knots which still hit
+/// are stopped altogether.
+const SOFT: usize = 6;
+const HARD: usize = 40;
 
 /// Slide in a step from which friction is full, m.
 const PLAY: f64 = 2.0e-5;
@@ -120,10 +129,10 @@ pub struct Layers {
     faces: Vec<[u32; 3]>,
     /// Which corners, and which edges (from corner k to the next), a face owns.
     owned: Vec<[bool; 6]>,
-    /// Neighbours of each knot along edges.
-    near: Pattern,
     /// Distance kept, m.
     apart: f64,
+    /// Greatest slack, m.
+    widest: f64,
     /// Pairs of features that may come near each other, while the knots have not moved on.
     pairs: Vec<Pair>,
     /// Places for which the pairs were found.
@@ -154,14 +163,12 @@ impl Layers {
                 owned
             })
             .collect();
-        let edges = faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
-        let near = Pattern::new(cloth.knots(), edges);
         let thickest = cloth.thickness.iter().copied().fold(0.0, f64::max);
         let mut layers = Layers {
             faces,
             owned,
-            near,
             apart: thickest.max(THIN).min(SHARE * cloth.cell),
+            widest: SLACK * cloth.cell,
             slack: -1.0,
             tangled: vec![false; cloth.knots()],
             ..Layers::default()
@@ -208,8 +215,7 @@ impl Layers {
             self.faces.par_iter().with_min_len(512).map(|f| extent(f, x, dx, margin)).collect();
         let found = boxes::pairs(&boxes, &|a, b| {
             let (f, g) = (&self.faces[a as usize], &self.faces[b as usize]);
-            // Two faces of one edge have no pair of features without a knot in common.
-            f.iter().filter(|k| g.contains(k)).count() < 2
+            f.iter().filter(|k| g.contains(k)).count() < 3
         });
         found
             .par_iter()
@@ -230,23 +236,10 @@ impl Layers {
                         pairs.push(Pair::Edges([f[k], f[(k + 1) % 3], g[m], g[(m + 1) % 3]]));
                     }
                 }
-                pairs.retain(|p| self.counts(p));
+                pairs.retain(Pair::is_apart);
                 pairs
             })
             .collect()
-    }
-
-    /// Whether two features are apart in the cloth: no knot in common, none next to each other.
-    fn counts(&self, pair: &Pair) -> bool {
-        let k = pair.knots();
-        let split = if matches!(pair, Pair::Point(_)) { 1 } else { 2 };
-        if k[..split].iter().any(|a| k[split..].contains(a)) {
-            return false;
-        }
-        !k[..split].iter().any(|&a| {
-            let next = &self.near.columns()[self.near.row(a as usize)];
-            k[split..].iter().all(|b| next.binary_search(b).is_ok())
-        })
     }
 
     /// Whether a pair is to be kept apart at all.
@@ -264,8 +257,14 @@ impl Layers {
         };
         if self.slack < 0.0 || moved > self.slack {
             let step = fastest(ahead);
-            self.slack = (3.0 * step).clamp(0.3 * self.apart, 2.0 * self.apart);
-            self.pairs = self.find(x, None, 0.5 * self.apart + self.slack);
+            self.slack = (4.0 * step).clamp(0.5 * self.apart, self.widest);
+            let reach = self.apart + 2.0 * self.slack;
+            self.pairs = self.find(x, None, 0.5 * reach);
+            self.pairs = std::mem::take(&mut self.pairs)
+                .into_par_iter()
+                .with_min_len(1024)
+                .filter(|p| p.way(&p.knots().map(|k| x[k as usize])).norm() <= reach)
+                .collect();
             self.at = x.to_vec();
         }
         let touches = self
@@ -290,7 +289,7 @@ impl Layers {
         let reach = self.apart;
         // A quick look along the axes before the exact one.
         if !hit {
-            let (mut gap, split) = (0.0f64, if matches!(pair, Pair::Point(_)) { 1 } else { 2 });
+            let (mut gap, split) = (0.0f64, pair.split());
             for k in 0..3 {
                 let (mut l1, mut h1, mut l2, mut h2) =
                     (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
@@ -385,7 +384,7 @@ impl Layers {
         let among = watched.as_deref().unwrap_or(&self.pairs);
         let mut share = vec![1.0f64; dx.len()];
         let full = dx.to_vec();
-        for round in 0..12 {
+        for round in 0..SOFT + HARD {
             let hits = self.hits(x, dx, among);
             if hits.is_empty() {
                 break;
@@ -393,10 +392,10 @@ impl Layers {
             for (pair, allowed) in &hits {
                 // A share of all movement together is safe for the pair itself; others that one of
                 // its knots meets are looked at again, in the end with no movement at all.
-                let factor = if round < 6 { 0.9 * allowed } else { 0.0 };
+                let factor = 0.9 * allowed;
                 for k in pair.knots() {
                     let s = &mut share[k as usize];
-                    *s = if round < 6 { s.min(*s * factor) } else { 0.0 };
+                    *s = if round < SOFT { *s * factor } else { 0.0 };
                 }
             }
             for ((d, f), s) in dx.iter_mut().zip(&full).zip(&share) {

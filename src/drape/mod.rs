@@ -31,7 +31,7 @@ mod swatch;
 mod trials;
 
 use crate::body;
-use crate::body::surface::Surface;
+use crate::body::surface::{Surface, SurfaceKind};
 use crate::diagnostic::Diagnostic;
 use crate::garment::scene::Phase;
 use crate::mesh::compiled::Compiled;
@@ -93,6 +93,9 @@ pub fn drape(
     Ok(Draped { positions: positions.into_iter().map(Point3::from).collect(), surfaces, stats })
 }
 
+/// Share of the wearer's height under which a garment's middle does not hang but lie.
+const LOW: f64 = 0.1;
+
 /// Sews and drapes over given skin, from given first places.
 pub fn dress(
     rungs: &[Compiled],
@@ -113,6 +116,7 @@ pub fn dress(
     let mut carried: Option<(Vec<Vector3<f64>>, bool)> = None;
     let mut result = Vec::new();
     let mut asked_rest = false;
+    let mut held = true;
     for (rung, compiled) in rungs.iter().enumerate() {
         let fine = rung + 1 == rungs.len();
         let (start, sewn) = match carried.take() {
@@ -122,6 +126,7 @@ pub fn dress(
         let seams = || compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
         let weld = Weld::new(compiled.particles.len(), seams().filter(|_| sewn));
         let mut shop = Workshop::new(compiled, surfaces, skin, weld, &start);
+        let mut fresh = rung == 0;
         let mut sewn = sewn;
         let phases = if fine { &finest.schedule[..] } else { &finest.schedule[..prefix] };
         for phase in phases {
@@ -155,7 +160,8 @@ pub fn dress(
                     } else {
                         (speed * 5.0, within.min(6.0))
                     };
-                    let course = schedule::settle(&mut shop, speed, within, options.air, progress);
+                    let course =
+                        schedule::settle(&mut shop, (speed, within), fresh, options.air, progress);
                     if let (true, Ok(course)) = (fine, course)
                         && !course.reached
                     {
@@ -164,6 +170,7 @@ pub fn dress(
                             course.speed * 1e3
                         ));
                     }
+                    fresh = false;
                     ("settle", course)
                 }
                 Phase::Run { time, rate, .. } => {
@@ -184,6 +191,10 @@ pub fn dress(
                 }
             }
         }
+        if fine {
+            held = shop.is_held();
+            shop.clear();
+        }
         let places = shop.positions();
         if let Some(next) = rungs.get(rung + 1) {
             carried = Some((ladder::carry(compiled, &places, next), sewn));
@@ -196,8 +207,21 @@ pub fn dress(
     stats.steps = steps;
     stats.largest_speed = last.speed;
     let at_rest = asked_rest && last.reached;
+    let height = surfaces
+        .iter()
+        .filter(|s| s.kind == SurfaceKind::Body)
+        .flat_map(|s| s.vertices.iter().map(|v| v.y))
+        .fold(0.0, f64::max);
+    let middle = result.iter().map(|x| x.y).sum::<f64>() / result.len().max(1) as f64;
+    // Nothing holds it, or it lies about the wearer's ankles.
+    let fell = !held || middle < LOW * height;
+    if fell && stats.deepest_penetration <= 1e-3 {
+        reason.get_or_insert("the garment fell off".to_owned());
+    }
     stats.verdict = if stats.deepest_penetration > 1e-3 {
         Verdict::Penetrating
+    } else if fell {
+        Verdict::FellOff
     } else if at_rest {
         Verdict::Settled
     } else {

@@ -22,6 +22,18 @@ impl Pair {
         }
     }
 
+    /// How many of its knots belong to the first feature.
+    pub fn split(&self) -> usize {
+        if matches!(self, Pair::Point(_)) { 1 } else { 2 }
+    }
+
+    /// Whether the two features have no knot in common.
+    pub fn is_apart(&self) -> bool {
+        let knots = self.knots();
+        let (first, second) = knots.split_at(self.split());
+        !first.iter().any(|k| second.contains(k))
+    }
+
     /// Weights of its knots such that the weighted sum of their places is the shortest way from
     /// the second feature to the first.
     pub fn weights(&self, x: &[V; 4]) -> [f64; 4] {

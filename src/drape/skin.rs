@@ -25,8 +25,19 @@ const STIFFNESS: f64 = 2.0e6;
 /// Elastic play of a sticking contact, m.
 const PLAY: f64 = 1.0e-4;
 
-/// Knots farther from all skin than this are not looked at until they have come nearer, m.
-const REACH: f64 = 0.04;
+/// Knots farther from their seat on the skin than this are not looked at until they have come
+/// nearer, m; more than the farthest movement of a step near skin.
+const REACH: f64 = 0.02;
+
+/// Within this way the skin counts as flat, m: a chord of it on a limb of radius 4 cm is 1 µm
+/// deep.
+const TURN: f64 = 3.0e-4;
+
+/// Least distance from skin that knots, middles of edges and middles of faces have in the end, m.
+const CLEAR: f64 = 2.0e-4;
+
+/// Rounds of moving them there.
+const CLEARINGS: usize = 8;
 
 /// Answer to the question how far a place is from all skin.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +86,8 @@ impl Skin for Figures {
 /// What one knot knows of the skin.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch {
+    /// Whether it was ever looked at.
+    known: bool,
     /// Place it was looked at.
     at: Vector3<f64>,
     /// Distance found there, m.
@@ -107,8 +120,9 @@ impl Contact {
         let touches = x
             .iter()
             .map(|x| Touch {
+                known: false,
                 at: *x,
-                distance: -1.0,
+                distance: 0.0,
                 normal: Vector3::y(),
                 friction: 0.0,
                 anchor: None,
@@ -126,17 +140,17 @@ impl Contact {
         0.5 * cloth.thickness[knot] + MARGIN
     }
 
-    /// A bound on how far each knot can move without meeting skin, or what is found there.
-    pub fn touches(&self) -> &[Touch] {
-        &self.touches
-    }
-
     /// Whether there is anything to touch.
     pub fn is_empty(&self) -> bool {
         !self.any
     }
 
-    /// Brings all distances up to date.
+    /// Whether any knot presses on skin.
+    pub fn is_loaded(&self) -> bool {
+        self.touches.iter().any(|t| t.load > 0.0)
+    }
+
+    /// Brings distances up to date where the skin may have come near or turned since.
     pub fn look(&mut self, cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) {
         if !self.any {
             return;
@@ -144,10 +158,12 @@ impl Contact {
         self.touches.par_iter_mut().zip(x).enumerate().with_min_len(64).for_each(
             |(i, (touch, x))| {
                 let moved = (x - touch.at).norm();
-                if touch.distance - moved > REACH || moved == 0.0 && touch.distance >= 0.0 {
+                let far = touch.distance - moved > Self::seat(cloth, i) + REACH;
+                if touch.known && (far || moved < TURN) {
                     return;
                 }
                 let Some(nearest) = skin.nearest(x) else { return };
+                touch.known = true;
                 touch.at = *x;
                 touch.distance = nearest.distance;
                 touch.normal = nearest.normal;
@@ -221,7 +237,7 @@ impl Contact {
         pushes.iter().enumerate().any(|(i, push)| {
             let touch = &self.touches[i];
             push.is_none()
-                && touch.distance - (x[i] - touch.at).norm() < REACH
+                && touch.near(&x[i], Self::seat(cloth, i))
                 && touch.distance + (x[i] + dx[i] - touch.at).dot(&touch.normal)
                     < Self::seat(cloth, i) - 0.3 * GIVE
         })
@@ -245,10 +261,9 @@ impl Contact {
         }
         for (i, touch) in self.touches.iter_mut().enumerate() {
             let least = Self::seat(cloth, i) - GIVE;
-            if touch.distance < least {
-                x[i] += touch.normal * (least - touch.distance);
-                touch.at = x[i];
-                touch.distance = least;
+            let distance = touch.distance + (x[i] - touch.at).dot(&touch.normal);
+            if touch.near(&x[i], Self::seat(cloth, i)) && distance < least {
+                x[i] += touch.normal * (least - distance);
                 let inward = v[i].dot(&touch.normal).min(0.0);
                 v[i] -= touch.normal * inward;
             }
@@ -256,7 +271,62 @@ impl Contact {
     }
 }
 
+/// Moves cloth out of the skin for good: knots, and the knots around edges and faces whose
+/// middles are under it. Gives the greatest depth that is left at any of those places, m.
+pub fn clear(cloth: &Cloth, skin: &dyn Skin, x: &mut [Vector3<f64>]) -> f64 {
+    let mut places: Vec<Vec<u32>> = (0..x.len() as u32).map(|k| vec![k]).collect();
+    let mut edges: Vec<[u32; 2]> = Vec::new();
+    for f in &cloth.faces {
+        edges.extend([0, 1, 2].map(|k| {
+            let (a, b) = (f[k], f[(k + 1) % 3]);
+            [a.min(b), a.max(b)]
+        }));
+    }
+    edges.sort_unstable();
+    edges.dedup();
+    places.extend(edges.into_iter().map(|e| e.to_vec()));
+    places.extend(cloth.faces.iter().map(|f| f.to_vec()));
+    let mut deepest = 0.0f64;
+    for _ in 0..CLEARINGS {
+        let out: Vec<Option<Vector3<f64>>> = places
+            .par_iter()
+            .with_min_len(64)
+            .map(|knots| {
+                let sum: Vector3<f64> = knots.iter().map(|k| x[*k as usize]).sum();
+                let nearest = skin.nearest(&(sum / knots.len() as f64))?;
+                (nearest.distance < CLEAR)
+                    .then(|| nearest.normal * (1.2 * CLEAR - nearest.distance))
+            })
+            .collect();
+        let mut moves: std::collections::BTreeMap<u32, Vector3<f64>> =
+            std::collections::BTreeMap::new();
+        deepest = 0.0;
+        for (knots, out) in places.iter().zip(&out) {
+            let Some(out) = out else { continue };
+            deepest = deepest.max(out.norm() - 1.2 * CLEAR);
+            for k in knots {
+                let way = moves.entry(*k).or_insert_with(Vector3::zeros);
+                if out.norm() > way.norm() {
+                    *way = *out;
+                }
+            }
+        }
+        if moves.is_empty() {
+            break;
+        }
+        for (k, way) in moves {
+            x[k as usize] += way;
+        }
+    }
+    deepest.max(0.0)
+}
+
 impl Touch {
+    /// Whether skin is so near that a step may reach it.
+    fn near(&self, x: &Vector3<f64>, seat: f64) -> bool {
+        self.distance - (x - self.at).norm() <= seat + REACH
+    }
+
     fn push(
         &mut self,
         seat: f64,
@@ -267,7 +337,7 @@ impl Touch {
         grip: f64,
     ) -> Option<Push> {
         self.active = 0.0;
-        if self.distance - (x - self.at).norm() > REACH {
+        if !self.near(x, seat) {
             self.anchor = None;
             self.load = 0.0;
             return None;

@@ -13,7 +13,7 @@ use super::layers::{Layers, Touches};
 use super::matrix::{Block, Lane, Matrix, add, add_scalar, lane, vector};
 use super::precondition::Factor;
 use super::sewing::Sewing;
-use super::skin::{Contact, Push, Skin};
+use super::skin::{self, Contact, Push, Skin};
 use super::weld::Weld;
 use crate::body::surface::Surface;
 use crate::mesh::compiled::Compiled;
@@ -168,6 +168,21 @@ impl<'a> Workshop<'a> {
     pub fn energy(&self, gravity: f64) -> [f64; 2] {
         let height: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
         [elastic::energy(&self.cloth, &self.x) + height, self.movement()]
+    }
+
+    /// Takes all speed.
+    pub fn stop(&mut self) {
+        self.v.fill(Vector3::zeros());
+    }
+
+    /// Moves what is still under the skin out of it; see [`skin::clear`].
+    pub fn clear(&mut self) {
+        skin::clear(&self.cloth, self.skin, &mut self.x);
+    }
+
+    /// Whether cloth lies on skin anywhere, or something holds it.
+    pub fn is_held(&self) -> bool {
+        self.holds.attached() || !self.holds.pins.is_empty() || self.contact.is_loaded()
     }
 
     /// Energy of movement, J.

@@ -140,7 +140,7 @@ fn friction_holds_and_lets_go_on_a_slope() {
         let free = 0.5 * 9.80665 * (s - 0.3 * c);
         println!("{degrees} {way} {free}");
         if slides {
-            assert!((way / free - 1.0).abs() < 0.05, "{way} {free}");
+            assert!((way / free - 1.0).abs() < 0.1, "{way} {free}");
         } else {
             assert!(way < 3e-3, "{way}");
         }

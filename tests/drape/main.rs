@@ -48,3 +48,9 @@ fn a_skirt_hangs_on_the_waist() {
     let (compiled, draped) = dress(&pattern::skirt(0.10), &[0.04, 0.02]);
     picture("skirt", &compiled, &draped);
 }
+
+#[test]
+fn a_tunic_hangs_on_the_shoulders() {
+    let (compiled, draped) = dress(&pattern::tunic(), &[0.03, 0.015]);
+    picture("tunic", &compiled, &draped);
+}

@@ -215,3 +215,109 @@ pub fn skirt(flare: f64) -> Garment {
     };
     garment("skirt", panels, seams, vec![attachment])
 }
+
+/// The path through the given places, one straight piece each.
+fn straight(corners: &[[f64; 2]]) -> Vec<BezPath> {
+    corners
+        .windows(2)
+        .map(|w| {
+            let mut path = BezPath::new();
+            path.move_to(Point::from((w[0][0], w[0][1])));
+            path.line_to(Point::from((w[1][0], w[1][1])));
+            path
+        })
+        .collect()
+}
+
+/// A tunic with short sleeves: front, back, two sleeves.
+pub fn tunic() -> Garment {
+    // Right half of a body piece from the hem's end upwards, mirrored for the other half.
+    let body = |neck: f64| {
+        let right = [
+            [0.30, -0.75],
+            [0.25, -0.24],
+            [0.20, -0.20],
+            [0.185, -0.13],
+            [0.205, -0.045],
+            [0.085, 0.0],
+            [0.05, -0.7 * neck],
+            [0.0, -neck],
+        ];
+        let mut corners: Vec<[f64; 2]> = right.to_vec();
+        corners.extend(right.iter().rev().skip(1).map(|[x, y]| [-x, *y]));
+        corners.push(right[0]);
+        straight(&corners)
+    };
+    let names = [
+        "side_r",
+        "arm_r0",
+        "arm_r1",
+        "arm_r2",
+        "shoulder_r",
+        "neck_r0",
+        "neck_r1",
+        "neck_l1",
+        "neck_l0",
+        "shoulder_l",
+        "arm_l2",
+        "arm_l1",
+        "arm_l0",
+        "side_l",
+        "hem",
+    ];
+    let cap = [
+        [-0.17, -0.22],
+        [0.17, -0.22],
+        [0.19, 0.0],
+        [0.1, 0.075],
+        [0.0, 0.115],
+        [-0.1, 0.075],
+        [-0.19, 0.0],
+        [-0.17, -0.22],
+    ];
+    let sleeve_names = ["hem", "under_r", "cap_r0", "cap_r1", "cap_l1", "cap_l0", "under_l"];
+    let arm = |side: &str| Placement::Wrapped {
+        body: 0,
+        landmark: format!("arm.{side}"),
+        level: Some(format!("shoulder.{side}")),
+        side: Side::Around,
+        anchor: 0.115,
+        gap: 0.02,
+    };
+    let panels = vec![
+        outline("front", body(0.09), &names, wrapped("neck", Side::Before, 0.0, 0.04)),
+        outline("back", body(0.03), &names, wrapped("neck", Side::Behind, 0.0, 0.04)),
+        outline("sleeve.left", straight(&cap), &sleeve_names, arm("left")),
+        outline("sleeve.right", straight(&cap), &sleeve_names, arm("right")),
+    ];
+    let mut seams = Vec::new();
+    for (l, r) in [("side_r", "side_l"), ("shoulder_r", "shoulder_l")] {
+        // The wearer's left lies at x > 0 in front, at x < 0 behind.
+        seams.push(seam(l, run(&panels, 0, l, true), run(&panels, 1, r, false)));
+        seams.push(seam(r, run(&panels, 0, r, true), run(&panels, 1, l, false)));
+    }
+    // Front armhole of a side, from the underarm up, and the sleeve's cap from the underarm up. On
+    // the left arm x < 0 of the sleeve lies in front, on the right arm x > 0.
+    let left = ["arm_r0", "arm_r1", "arm_r2"];
+    let right = ["arm_l0", "arm_l1", "arm_l2"];
+    for (sleeve, front, back, front_cap, back_cap) in [
+        (2, left, right, ["cap_l0", "cap_l1"], ["cap_r0", "cap_r1"]),
+        (3, right, left, ["cap_r0", "cap_r1"], ["cap_l0", "cap_l1"]),
+    ] {
+        for (panel, hole, cap) in [(0, front, front_cap), (1, back, back_cap)] {
+            seams.push(Seam {
+                name: format!("armhole {panel} {sleeve}"),
+                span: Span::default(),
+                kind: SeamKind::Plain,
+                a: hole.map(|name| run(&panels, panel, name, name.starts_with("arm_r"))).to_vec(),
+                b: cap.map(|name| run(&panels, sleeve, name, name.starts_with("cap_r"))).to_vec(),
+            });
+        }
+        seams.push(seam(
+            "underarm",
+            run(&panels, sleeve, "under_r", true),
+            run(&panels, sleeve, "under_l", false),
+        ));
+    }
+    garment("tunic", panels, seams, Vec::new())
+}
