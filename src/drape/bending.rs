@@ -81,7 +81,12 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
         let h = panel.cell;
         for c in panel.cells.range() {
             let corners = compiled.cells[c].map(|p| weld.knot[p as usize]);
-            let twist = [(corners[0], 1.0 / h), (corners[1], -1.0 / h), (corners[2], 1.0 / h), (corners[3], -1.0 / h)];
+            let twist = [
+                (corners[0], 1.0 / h),
+                (corners[1], -1.0 / h),
+                (corners[2], 1.0 / h),
+                (corners[3], -1.0 / h),
+            ];
             folds.push(Fold::new(&twist, 2.0 * mean * (1.0 - fabric.poisson.clamp(-0.5, 0.95))));
             for e in 0..4 {
                 let (a, b) = (corners[e], corners[(e + 1) % 4]);

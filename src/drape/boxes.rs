@@ -13,10 +13,7 @@ pub struct Extent {
 impl Extent {
     /// The box that holds nothing.
     pub fn nothing() -> Self {
-        Extent {
-            low: Vector3::repeat(f64::INFINITY),
-            high: Vector3::repeat(f64::NEG_INFINITY),
-        }
+        Extent { low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY) }
     }
 
     /// Grows to hold a place.

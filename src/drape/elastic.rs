@@ -12,8 +12,7 @@ pub type Places = [Vector3<f64>];
 /// Elastic energy, J: tension, shear and bending of the whole cloth.
 pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     let at = |k: u32| x[k as usize];
-    let springs: f64 =
-        cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
+    let springs: f64 = cloth.springs.iter().map(|s| s.energy(&at(s.ends[0]), &at(s.ends[1]))).sum();
     let cells: f64 = cloth.cells.iter().map(|c| c.energy(&c.corners.map(at))).sum();
     let triangles: f64 = cloth.triangles.iter().map(|t| t.energy(&t.corners.map(at))).sum();
     let folds: f64 = cloth

@@ -57,13 +57,17 @@ pub struct Holds {
 
 impl Holds {
     /// The holds of a cloth whose knots are at `x`. Surfaces: the bodies first, as in `compiled`.
-    pub fn new(compiled: &Compiled, surfaces: &[Surface], cloth: &Cloth, x: &[Vector3<f64>]) -> Self {
+    pub fn new(
+        compiled: &Compiled,
+        surfaces: &[Surface],
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+    ) -> Self {
         let mut holds = Holds { held: vec![false; cloth.knots()], ..Holds::default() };
         let bodies = &surfaces[..compiled.bodies.len().min(surfaces.len())];
         let mark = |body: usize, name: &str| bodies.get(body).and_then(|b| b.landmarks.get(name));
         let knots = |points: &[u32]| {
-            let mut knots: Vec<u32> =
-                points.iter().map(|&p| cloth.weld.knot[p as usize]).collect();
+            let mut knots: Vec<u32> = points.iter().map(|&p| cloth.weld.knot[p as usize]).collect();
             knots.sort_unstable();
             knots.dedup();
             knots
@@ -79,10 +83,9 @@ impl Holds {
                 Place::Points(knots.iter().map(|&k| x[k as usize] - from + to).collect())
             };
             let place = match mark(a.body, &a.landmark) {
-                Some(Landmark::Ring { axis, points, .. }) if points.len() > 2 => Place::Ring {
-                    points: points.iter().map(|p| p.coords).collect(),
-                    axis: *axis,
-                },
+                Some(Landmark::Ring { axis, points, .. }) if points.len() > 2 => {
+                    Place::Ring { points: points.iter().map(|p| p.coords).collect(), axis: *axis }
+                }
                 Some(Landmark::Ring { centre, .. }) => shifted(centre.coords),
                 Some(Landmark::Point(p)) => shifted(p.coords),
                 Some(Landmark::Limb { points, .. }) => match points.first() {

@@ -43,12 +43,16 @@ impl<'a> Squares<'a> {
         let triangles = panel.triangles.range().map(|t| t + compiled.cells.len());
         for face in cells.chain(triangles) {
             let corners = squares.corners(face as u32);
-            let a = squares.square(corners.iter().fold([f64::INFINITY; 2], |m, p| {
-                [m[0].min(p.1[0]), m[1].min(p.1[1])]
-            }));
-            let b = squares.square(corners.iter().fold([f64::NEG_INFINITY; 2], |m, p| {
-                [m[0].max(p.1[0]), m[1].max(p.1[1])]
-            }));
+            let a = squares.square(
+                corners
+                    .iter()
+                    .fold([f64::INFINITY; 2], |m, p| [m[0].min(p.1[0]), m[1].min(p.1[1])]),
+            );
+            let b = squares.square(
+                corners
+                    .iter()
+                    .fold([f64::NEG_INFINITY; 2], |m, p| [m[0].max(p.1[0]), m[1].max(p.1[1])]),
+            );
             for j in a[1]..=b[1] {
                 for i in a[0]..=b[0] {
                     entries.push((j * count[0] + i, face as u32));
@@ -142,11 +146,13 @@ pub fn carry(coarse: &Compiled, places: &[Vector3<f64>], fine: &Compiled) -> Vec
     for (from, to) in coarse.panels.iter().zip(&fine.panels) {
         let Some(squares) = Squares::new(coarse, from) else { continue };
         let range = to.particles.range();
-        carried[range.clone()].par_iter_mut().zip(&fine.particles[range]).for_each(|(place, uv)| {
-            if let Some(weights) = squares.find(*uv) {
-                *place = weights.iter().map(|(k, w)| places[*k as usize] * *w).sum();
-            }
-        });
+        carried[range.clone()].par_iter_mut().zip(&fine.particles[range]).for_each(
+            |(place, uv)| {
+                if let Some(weights) = squares.find(*uv) {
+                    *place = weights.iter().map(|(k, w)| places[*k as usize] * *w).sum();
+                }
+            },
+        );
     }
     carried
 }

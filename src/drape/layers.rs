@@ -138,12 +138,8 @@ pub struct Layers {
 impl Layers {
     /// Takes up a cloth; the faces are looked through for such as cut each other already.
     pub fn new(cloth: &Cloth, x: &[V]) -> Self {
-        let faces: Vec<[u32; 3]> = cloth
-            .faces
-            .iter()
-            .copied()
-            .filter(|[a, b, c]| a != b && b != c && c != a)
-            .collect();
+        let faces: Vec<[u32; 3]> =
+            cloth.faces.iter().copied().filter(|[a, b, c]| a != b && b != c && c != a).collect();
         let mut knot_taken = vec![false; cloth.knots()];
         let mut edge_taken: BTreeMap<[u32; 2], ()> = BTreeMap::new();
         let owned = faces
@@ -373,8 +369,7 @@ impl Layers {
     pub fn catch(&self, cloth: &Cloth, x: &[V], dx: &[V], touches: &mut Touches) -> bool {
         let watched = self.watched(x, dx);
         let hits = self.hits(x, dx, watched.as_deref().unwrap_or(&self.pairs));
-        let had: std::collections::BTreeSet<[u32; 4]> =
-            touches.0.iter().map(|t| t.knots).collect();
+        let had: std::collections::BTreeSet<[u32; 4]> = touches.0.iter().map(|t| t.knots).collect();
         let before = touches.0.len();
         for (pair, _) in &hits {
             if !had.contains(&pair.knots()) {

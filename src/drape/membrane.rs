@@ -58,7 +58,9 @@ impl Triangle {
         let [a, b] = self.threads(x);
         let (weft, warp, shear) = (a.norm() - 1.0, b.norm() - 1.0, a.dot(&b));
         0.5 * self.area
-            * (self.tensile[1] * weft * weft + self.tensile[0] * warp * warp + self.shear * shear * shear)
+            * (self.tensile[1] * weft * weft
+                + self.tensile[0] * warp * warp
+                + self.shear * shear * shear)
     }
 
     /// Forces on its corners, N, and its stiffness blocks (0,0) (1,1) (2,2) (0,1) (0,2) (1,2), N/m.

@@ -103,8 +103,7 @@ pub fn dress(
     progress: &mut dyn Progress,
 ) -> (Vec<Vector3<f64>>, Stats) {
     let Some(finest) = rungs.last() else { return (Vec::new(), Stats::default()) };
-    let prefix =
-        finest.schedule.iter().take_while(|p| !matches!(p, Phase::Run { .. })).count();
+    let prefix = finest.schedule.iter().take_while(|p| !matches!(p, Phase::Run { .. })).count();
     // What runs by the clock begins where the text puts it; only rest is sought coarse to fine.
     let rungs = if prefix == 0 { &rungs[rungs.len() - 1..] } else { rungs };
     let mut seconds = std::collections::BTreeMap::new();

@@ -214,8 +214,7 @@ mod tests {
             add_scalar(b, -1.0);
         }
         a.close();
-        let x: Vec<Lane> =
-            (0..n).map(|i| [i as f32 * 0.1, 1.0, (i % 3) as f32, 0.0]).collect();
+        let x: Vec<Lane> = (0..n).map(|i| [i as f32 * 0.1, 1.0, (i % 3) as f32, 0.0]).collect();
         let mut r = vec![[0.0; 4]; n as usize];
         a.multiply(&x, &mut r);
         let mut factor = Factor::new(&a);

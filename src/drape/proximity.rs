@@ -157,7 +157,11 @@ mod tests {
     #[test]
     fn the_shortest_way_is_found() {
         let t = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(V::from);
-        for (p, far) in [([0.2, 0.2, 0.5], 0.5), ([-1.0, -1.0, 0.0], 2f64.sqrt()), ([1.0, 1.0, 0.0], 0.5f64.sqrt())] {
+        for (p, far) in [
+            ([0.2, 0.2, 0.5], 0.5),
+            ([-1.0, -1.0, 0.0], 2f64.sqrt()),
+            ([1.0, 1.0, 0.0], 0.5f64.sqrt()),
+        ] {
             let x = [V::from(p), t[0], t[1], t[2]];
             assert!((Pair::Point([0; 4]).way(&x).norm() - far).abs() < 1e-12);
         }

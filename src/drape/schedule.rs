@@ -94,7 +94,8 @@ pub fn settle(
     while course.time < within && course.steps < most {
         let slow = (moved / speed.max(1e-5)).max(1.0);
         let dt = if course.time < free || slow > 200.0 { 1.0 / 60.0 } else { 1.0 / 30.0 };
-        let calm = if course.time < free { 0.5 } else { (0.5 + 3.0 * (course.time - free)).min(6.0) };
+        let calm =
+            if course.time < free { 0.5 } else { (0.5 + 3.0 * (course.time - free)).min(6.0) };
         let taken = shop.step(&Manner {
             dt,
             air,

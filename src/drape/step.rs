@@ -166,8 +166,7 @@ impl<'a> Workshop<'a> {
 
     /// Energy of deformation and height (in the given gravity) and of movement, J.
     pub fn energy(&self, gravity: f64) -> [f64; 2] {
-        let height: f64 =
-            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
+        let height: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * gravity * x.y).sum();
         [elastic::energy(&self.cloth, &self.x) + height, self.movement()]
     }
 
@@ -326,7 +325,8 @@ impl<'a> Workshop<'a> {
             self.force[knot as usize] += force;
             add(&mut matrix.own[knot as usize], &k);
         }
-        let normals = if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
+        let normals =
+            if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
         for (i, force) in self.force.iter_mut().enumerate() {
             let mass = self.cloth.mass[i];
             force.y -= mass * manner.gravity;

@@ -51,9 +51,6 @@ impl Spring {
         let stretch = (length * length - self.rest * self.rest) / (length + self.rest);
         let lateral = (stretch / length).max(SLACK);
         let along = n * n.transpose() * (1.0 - lateral);
-        (
-            n * (self.stiffness * stretch),
-            (along + Matrix3::identity() * lateral) * self.stiffness,
-        )
+        (n * (self.stiffness * stretch), (along + Matrix3::identity() * lateral) * self.stiffness)
     }
 }

@@ -5,8 +5,8 @@ use super::skin::Skin;
 use super::step::{Manner, Workshop};
 use super::swatch::{Ball, Nothing, Slope, fabric, irregular, rectangles};
 use super::weld::Weld;
-use crate::mesh::compiled::{Compiled, MeshPin};
 use crate::garment::seam::PinTarget;
+use crate::mesh::compiled::{Compiled, MeshPin};
 use nalgebra::Vector3;
 
 fn shop<'a>(compiled: &Compiled, skin: &'a dyn Skin, x: &[Vector3<f64>]) -> Workshop<'a> {
@@ -93,9 +93,8 @@ fn cantilever(gamma: f64, cells: usize, triangles: bool) -> f64 {
         compiled = irregular(compiled, counts, h);
     }
     let columns = counts[0] + 1;
-    let held: Vec<u32> = (0..compiled.particles.len() as u32)
-        .filter(|p| (*p as usize % columns) <= clamp)
-        .collect();
+    let held: Vec<u32> =
+        (0..compiled.particles.len() as u32).filter(|p| (*p as usize % columns) <= clamp).collect();
     compiled.pins.push(MeshPin { points: held, to: PinTarget::Here });
     let mut shop = shop(&compiled, &Nothing, &flat(&compiled, |u, v| [u, 0.0, v]));
     let steps = rest(&mut shop, 0.05, 2.0, 2e-4, 3000);
@@ -163,7 +162,13 @@ fn handkerchief(cells: usize, seconds: f64) -> (Vec<Vector3<f64>>, Compiled) {
         steps += 1;
         its += taken.iterations;
         if steps % 40 == 0 {
-            println!("t {time:.3} speed {:.3} touches {} cut {} low {:.3}", taken.speed, taken.touches, taken.cut, shop.x.iter().map(|x| x.y).fold(9.0, f64::min));
+            println!(
+                "t {time:.3} speed {:.3} touches {} cut {} low {:.3}",
+                taken.speed,
+                taken.touches,
+                taken.cut,
+                shop.x.iter().map(|x| x.y).fold(9.0, f64::min)
+            );
         }
     }
     let stats = super::stats::measure(&compiled, &shop.positions(), &ball);

@@ -11,18 +11,25 @@ use darzi::progress::{Progress, Quiet};
 
 struct Loud;
 impl Progress for Loud {
-    fn stage(&mut self, name: &str) { println!("-- {name}"); }
+    fn stage(&mut self, name: &str) {
+        println!("-- {name}");
+    }
     fn share(&mut self, done: f64, note: &str) {
         use std::sync::atomic::{AtomicUsize, Ordering};
         static N: AtomicUsize = AtomicUsize::new(0);
-        if N.fetch_add(1, Ordering::Relaxed) % 10 == 0 { println!("{done:.3} {note}"); }
+        if N.fetch_add(1, Ordering::Relaxed) % 10 == 0 {
+            println!("{done:.3} {note}");
+        }
     }
 }
 
 fn dress(garment: &Garment, cells: &[f64]) -> (Compiled, Draped) {
     let rungs: Vec<Compiled> = cells
         .iter()
-        .map(|&cell| compile(garment, &mesh::Options { cell: Some(cell), ..Default::default() }).expect("compiles"))
+        .map(|&cell| {
+            compile(garment, &mesh::Options { cell: Some(cell), ..Default::default() })
+                .expect("compiles")
+        })
         .collect();
     let draped = drape(&rungs, &Options::default(), &mut Loud).expect("drapes");
     println!("{:#?}", draped.stats);

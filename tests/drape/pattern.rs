@@ -25,11 +25,8 @@ pub fn cotton() -> Fabric {
         colour: Colour([r, g, b, 255]),
         diameter: 0.2e-3,
     };
-    let thread = |r, g, b| Thread {
-        yarn: yarn(r, g, b),
-        spacing: 0.35e-3,
-        colour: Colour([r, g, b, 255]),
-    };
+    let thread =
+        |r, g, b| Thread { yarn: yarn(r, g, b), spacing: 0.35e-3, colour: Colour([r, g, b, 255]) };
     Fabric {
         name: "cotton".to_owned(),
         structure: Structure::Woven {
