@@ -11,6 +11,9 @@ use nalgebra::{Point3, Vector3};
 const WIDTH: u32 = 520;
 const HEIGHT: u32 = 760;
 
+/// Measures by name.
+type Asked = &'static [(&'static str, f64)];
+
 fn request(figure: Figure, measures: &[(&str, f64)]) -> BodyRequest {
     BodyRequest {
         name: "lady".into(),
@@ -23,7 +26,7 @@ fn request(figure: Figure, measures: &[(&str, f64)]) -> BodyRequest {
 /// Parallel projection, seen from `turn` rad to the wearer's left of the front; `None` where
 /// nothing is.
 fn picture(surface: &Surface, turn: f64, middle: [f64; 2], scale: f64) -> Vec<Option<f64>> {
-    let (sin, cos) = turn.sin_cos();
+    let (sin, cos) = (libm::sin(turn), libm::cos(turn));
     let look = |v: Vector3<f64>| Vector3::new(v.x * cos - v.z * sin, v.y, v.x * sin + v.z * cos);
     let screen = |p: Point3<f64>| {
         let q = look(p.coords);
@@ -76,14 +79,14 @@ fn picture(surface: &Surface, turn: f64, middle: [f64; 2], scale: f64) -> Vec<Op
 
 fn sheet(surface: &Surface, name: &str, middle: f64, span: f64) -> Vec<Vec<Option<f64>>> {
     let scale = f64::from(HEIGHT) / span;
-    let turns = [0.0, 0.7, 1.5708, 3.14159, 3.9];
+    let turns = [0.0, 0.7, std::f64::consts::FRAC_PI_2, std::f64::consts::PI, 3.9];
     let views: Vec<_> = turns.iter().map(|t| picture(surface, *t, [0.0, middle], scale)).collect();
     let mut image = RgbImage::from_pixel(WIDTH * 5, HEIGHT, Rgb([236, 234, 230]));
     for (k, view) in views.iter().enumerate() {
         for (i, shade) in view.iter().enumerate() {
             if let Some(s) = shade {
                 let (x, y) = (i as u32 % WIDTH, i as u32 / WIDTH);
-                let tone = |c: f64| (255.0 * (c * s).clamp(0.0, 1.0).powf(1.0 / 1.6)) as u8;
+                let tone = |c: f64| (255.0 * libm::pow((c * s).clamp(0.0, 1.0), 1.0 / 1.6)) as u8;
                 image.put_pixel(k as u32 * WIDTH + x, y, Rgb([tone(0.98), tone(0.9), tone(0.82)]));
             }
         }
@@ -95,7 +98,7 @@ fn sheet(surface: &Surface, name: &str, middle: f64, span: f64) -> Vec<Vec<Optio
 
 #[test]
 fn other_sizes_keep_their_shape() {
-    let people: [(&str, Figure, &[(&str, f64)]); 4] = [
+    let people: [(&str, Figure, Asked); 4] = [
         (
             "large",
             Figure::Female,

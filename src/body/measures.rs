@@ -42,7 +42,7 @@ const FEMALE: &[Entry] = &[
     ("shoulder", Stand::Height(0.0726, 0.0726), 0.05, 0.11),
     ("bust_depth", Stand::Of("back_length", 0.671, 0.671), 0.1, 0.26),
     ("bust_gap", Stand::Of("bust", 0.216, 0.216), 0.06, 0.22),
-    ("upper_arm", Stand::Of("bust", 0.318, 0.318), 0.1, 0.4),
+    ("upper_arm", Stand::Of("bust", 0.317, 0.317), 0.1, 0.4),
     ("elbow", Stand::Of("upper_arm", 0.87, 0.87), 0.09, 0.32),
     ("wrist", Stand::Of("upper_arm", 0.565, 0.565), 0.06, 0.18),
     ("arm_length", Stand::Height(0.351, 0.351), 0.26, 0.44),

@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::fields::{Arg, bare};
-use super::item::{ItemId, State};
+use super::item::ItemId;
 use super::scope::{Binding, BindingId, ScopeId, What};
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
@@ -166,6 +166,18 @@ impl<'t> Evaluator<'t> {
         Value::Quantity(Quantity::new(quantity.value, low.dimension))
     }
 
+    /// Whether a scope belongs to a panel that was opened only to try a value of a fit.
+    fn is_trial(&self, scope: ScopeId) -> bool {
+        let mut at = Some(scope);
+        while let Some(id) = at {
+            if self.trials.contains(&id) {
+                return true;
+            }
+            at = self.scopes.get(id.0).and_then(|scope| scope.parent);
+        }
+        false
+    }
+
     /// A parameter with options: `param kind = knife in [knife, box]`.
     fn option(&mut self, expr: &'t Expr, options: &[&'t Name], name: &str, range: Span) -> Value {
         match bare(expr) {
@@ -185,15 +197,17 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// Works out every parameter, so that one out of its range is told although nobody needs
-    /// it, and tells what was to be set and is not there.
-    pub(super) fn check_parameters(&mut self) {
-        for id in self.parameters.clone() {
-            let binding = &self.bindings[id.0];
-            if binding.span.file == self.root && !matches!(binding.state, State::Running) {
-                let span = binding.span;
-                self.binding_value(id, span);
+    /// Works out every name of the file, so that a mistake is told although nobody needs the
+    /// value, and tells what was to be set and is not there.
+    pub(super) fn check_names(&mut self) {
+        let mut at = 0;
+        while let Some(binding) = self.bindings.get(at) {
+            let own = matches!(binding.what, What::Let(_) | What::Param { .. });
+            let span = binding.span;
+            if own && span.file == self.root && !self.is_trial(binding.scope) {
+                self.binding_value(BindingId(at), span);
             }
+            at += 1;
         }
         let mut names: Vec<String> = self
             .parameters

@@ -109,6 +109,9 @@ impl<'t> Evaluator<'t> {
             );
             return Value::Poison;
         }
+        if !self.step(super::CALL, span) {
+            return Value::Poison;
+        }
         let inner = self.new_scope(Some(home));
         let mut given: Vec<(&'t Argument, bool)> =
             arguments.iter().map(|argument| (argument, false)).collect();

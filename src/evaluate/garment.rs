@@ -76,7 +76,7 @@ impl<'t> Evaluator<'t> {
             garments.extend(made.filter(|_| self.errors() == before));
         }
         self.make_all(self.root);
-        self.check_parameters();
+        self.check_names();
         if names.is_empty() {
             return garments;
         }
@@ -123,12 +123,12 @@ impl<'t> Evaluator<'t> {
             .all("panel")
             .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
         self.places(&fields, &mut making);
-        self.seams(&fields, &mut making);
+        let sewn = self.seams(&fields, &mut making);
         self.holds(&fields, &mut making);
         self.checks(&fields);
         self.schedule(&fields, &mut making);
         self.pictures(&fields, &mut making);
-        if whole {
+        if whole && sewn {
             self.led(&mut making);
         }
         Some(making.garment)
@@ -491,8 +491,8 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// Seams of the darts of all panels, then those that the text says.
-    fn seams(&mut self, fields: &Fields<'t>, making: &mut Making) {
+    /// Seams of the darts of all panels, then those that the text says; false if one is wrong.
+    fn seams(&mut self, fields: &Fields<'t>, making: &mut Making) -> bool {
         for (id, draft) in &making.drafts {
             for (number, piece) in draft.pieces.iter().enumerate() {
                 let Some(&panel) = making.numbers.get(&(*id, number)) else { continue };
@@ -509,7 +509,7 @@ impl<'t> Evaluator<'t> {
             }
         }
         let phrases: Vec<Phrase<'t>> = fields.all("seam").cloned().collect();
-        self.sew(&phrases, making);
+        self.sew(&phrases, making)
     }
 
     /// A garment that a top-level `picture { of: … }` asks for: a sari over a line, or flat.

@@ -28,7 +28,7 @@ pub mod textile;
 pub mod value;
 pub mod words;
 
-use crate::diagnostic::{Diagnostic, FileId, Span};
+use crate::diagnostic::{Diagnostic, FileId, Label, Span};
 use crate::garment::Garment;
 use crate::syntax::tree::{Expr, Name};
 use crate::units::Quantity;
@@ -48,7 +48,12 @@ pub struct Options {
 }
 
 /// Steps of evaluation one text may take; an ordinary garment takes some ten thousand.
-const STEPS: u64 = 20_000_000;
+const STEPS: u64 = 10_000_000;
+
+/// Steps that one call of a function stands for, and one opening of a panel: both leave names
+/// behind, so that the limit of steps also bounds memory.
+const CALL: u64 = 100;
+const OPENING: u64 = 300;
 
 /// How deep values may hang on each other.
 const DEPTH: usize = 3_000;
@@ -78,6 +83,13 @@ pub fn evaluate(
     match worked {
         Ok(Ok((garments, more))) => {
             told.extend(more);
+            // In the order of the text, those of other files behind.
+            told.sort_by_key(|diagnostic| {
+                diagnostic
+                    .labels
+                    .first()
+                    .map(|Label { span, .. }| (span.file != root, span.file, span.start))
+            });
             (garments, told)
         }
         Ok(Err(panic)) => std::panic::resume_unwind(panic),
@@ -104,6 +116,8 @@ pub struct Evaluator<'t> {
     cloths: BTreeMap<ItemId, fields::Fields<'t>>,
     /// Values of fitted names, by the scope of the panel they belong to.
     fits: BTreeMap<ScopeId, BTreeMap<String, Quantity>>,
+    /// Scopes of panels opened only to try a value of a fit.
+    trials: BTreeSet<ScopeId>,
     /// Parameters set by copies, by the scope of the copy.
     settings: BTreeMap<ScopeId, Vec<(&'t Name, &'t Expr)>>,
     /// Scopes of the library's modules, by their paths.
@@ -134,6 +148,7 @@ impl<'t> Evaluator<'t> {
             instances: Vec::new(),
             cloths: BTreeMap::new(),
             fits: BTreeMap::new(),
+            trials: BTreeSet::new(),
             settings: BTreeMap::new(),
             libraries: BTreeMap::new(),
             parameters: Vec::new(),

@@ -121,14 +121,16 @@ fn length(row: &[Element]) -> f64 {
 }
 
 impl<'t> Evaluator<'t> {
-    /// Makes the seams of a garment.
-    pub(super) fn sew(&mut self, phrases: &[Phrase<'t>], making: &mut Making) {
+    /// Makes the seams of a garment; false if one of them is wrong.
+    pub(super) fn sew(&mut self, phrases: &[Phrase<'t>], making: &mut Making) -> bool {
         let mut pending: Vec<Pending<'_, 't>> = Vec::new();
+        let mut sound = true;
         for phrase in phrases {
             let lines: Option<Vec<Line>> =
                 phrase.args().into_iter().map(|arg| self.line_of(arg, making)).collect();
-            if let Some(lines) = lines {
-                self.arms(phrase, &lines, &mut pending);
+            match lines {
+                Some(lines) => self.arms(phrase, &lines, &mut pending),
+                None => sound = false,
             }
         }
         // Seams of single edges know their direction; they join the corners of rows.
@@ -150,10 +152,18 @@ impl<'t> Evaluator<'t> {
             }
         }
         let mut sewn: Vec<(PanelRun, Span)> = Vec::new();
+        let mut wrong: Vec<(Span, Span)> = Vec::new();
         for seam in pending {
-            self.finish_seam(seam, &corners, making, &mut sewn);
+            // What is wrong with the left is not told again of the right.
+            let spans = seam.spans;
+            if !wrong.contains(&spans)
+                && self.finish_seam(seam, &corners, making, &mut sewn).is_none()
+            {
+                wrong.push(spans);
+            }
         }
         self.sewn_twice(&sewn, making);
+        sound && wrong.is_empty()
     }
 
     /// The edges named on one side of a seam.
@@ -250,11 +260,11 @@ impl<'t> Evaluator<'t> {
         corners: &Corners,
         making: &mut Making,
         sewn: &mut Vec<(PanelRun, Span)>,
-    ) {
-        let Some(a_left) = self.direction(&seam, corners) else { return };
+    ) -> Option<()> {
+        let a_left = self.direction(&seam, corners)?;
         let b_left = a_left == seam.phrase.says("reversed");
         if !self.lengths_agree(&seam) {
-            return;
+            return None;
         }
         let rows = |row: &[Element], left: bool| -> Vec<PanelRun> {
             row.iter().flat_map(|element| element.runs(left)).collect()
@@ -264,7 +274,7 @@ impl<'t> Evaluator<'t> {
             row.iter().map(|element| element.written.as_str()).collect::<Vec<_>>().join(" + ")
         };
         let name = format!("{} -> {}", names(&seam.a), names(&seam.b));
-        let Some(parts) = self.opened_parts(&seam, a_left) else { return };
+        let parts = self.opened_parts(&seam, a_left)?;
         for (from, to, kind) in parts {
             let (a, b) = (share(&a, from, to), share(&b, from, to));
             if a.is_empty() || b.is_empty() {
@@ -282,6 +292,7 @@ impl<'t> Evaluator<'t> {
                 b,
             });
         }
+        Some(())
     }
 
     /// Whether the cloth of side a lies to the left when it is walked as named.

@@ -96,7 +96,7 @@ impl Scene {
         if let Some(sheen) = sheen(finish) {
             self.sheen = true;
             material["extensions"] = json!({ "KHR_materials_sheen": {
-                "sheenColorFactor": [sheen; 3], "sheenRoughnessFactor": 0.6
+                "sheenColorFactor": [sheen, sheen, sheen], "sheenRoughnessFactor": 0.6
             } });
         }
         self.materials.push(material);

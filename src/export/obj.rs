@@ -226,7 +226,7 @@ impl Materials {
                 let file = format!("{}.{name}.png", line(stem));
                 writeln!(out, "map_Kd {file}")?;
                 if cutting.open {
-                    writeln!(out, "map_d -imfchan m {file}")?;
+                    writeln!(out, "map_d {file}")?;
                 }
                 pictures.push((file, cutting.png));
             }

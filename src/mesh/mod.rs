@@ -3,7 +3,7 @@
 //!
 //! The order of work: cut lines are measured ([`outline`]); places where a particle must lie are
 //! collected ([`breakpoint`]) and carried through the seams ([`matching`]); every stretch between
-//! them gets its count of steps ([`spacing`]); then each panel is cut by itself ([`panel`]):
+//! them gets its count of steps ([`spacing`], [`grading`]); then each panel is cut by itself ([`panel`]):
 //! its grid ([`lattice`]), the band along its edges ([`band`], [`triangulation`], [`improve`]).
 
 pub mod assemble;
@@ -11,6 +11,7 @@ pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
+pub mod grading;
 pub mod improve;
 pub mod json;
 pub mod lattice;
@@ -41,7 +42,7 @@ pub const DEFAULT_CELL: f64 = 8e-3;
 /// No cell is smaller, m.
 const FINEST_CELL: f64 = 1e-5;
 /// How often steps may be shortened until every panel comes out well.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 4;
 
 /// How to compile.
 #[derive(Clone, Copy, Debug, PartialEq)]

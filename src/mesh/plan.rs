@@ -1,6 +1,7 @@
 //! Everything that runs along the cut lines: breakpoints, seams, named edges, what is held.
 
 use super::breakpoint::{Rings, Walk};
+use super::grading::grade;
 use super::matching::{Classes, Match, Side, carry_breaks};
 use super::outline::Outline;
 use super::spacing::{self, Address, Spacing};
@@ -73,16 +74,18 @@ impl Plan {
             let panels = sides.filter_map(|on| cells.get(on.panel));
             REACH * panels.copied().fold(f64::INFINITY, f64::min)
         };
-        carry_breaks(&mut rings, &mut seams, reach).map_err(|numbers| {
+        let matched = carry_breaks(&mut rings, &mut seams, reach)
+            .and_then(|()| grade(&mut rings, &mut seams, outlines, cells));
+        let classes = matched.map_err(|numbers| {
             let seams = numbers.iter().filter_map(|&number| garment.seams.get(number));
             let said = seams.map(|seam| {
-                Diagnostic::new("E0814", format!("the points of `{}` cannot be matched", seam.name))
+                let message = format!("the points of `{}` cannot be matched", seam.name);
+                Diagnostic::new("E0814", message)
                     .at(seam.span, "its sides share edges so that their points never come to rest")
                     .help("sew edges that do not overlap each other")
             });
             said.collect::<Vec<_>>()
         })?;
-        let classes = Classes::new(&rings, &seams);
         Ok(Plan { rings, seams, attachments, pins, edges, classes })
     }
 

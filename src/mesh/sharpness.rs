@@ -27,12 +27,17 @@ impl NarrowCorners {
                     // At distance x from the tip the cloth is 2x sin(angle/2) wide; from about
                     // half the spacing of points on, triangles with 20° fit.
                     let spacing = distance(a, b).max(distance(b, c));
-                    let reach = 0.25 / libm::sin(angle.max(0.01) / 2.0) + 1.5;
+                    let reach = 0.25 / libm::sin(angle.max(1e-3) / 2.0) + 1.5;
                     corners.push((b, reach * spacing));
                 }
             }
         }
         NarrowCorners { corners }
+    }
+
+    /// Whether a place lies where a narrow corner is narrower than its points are apart.
+    pub fn reach(&self, place: Place) -> bool {
+        self.corners.iter().any(|&(tip, reach)| distance(place, tip) <= reach)
     }
 
     /// Whether a triangle is sharper than 20° without a narrow corner near by.

@@ -3,6 +3,7 @@
 use super::breakpoint::Rings;
 use super::matching::Classes;
 use super::outline::Outline;
+use super::sharpness::NarrowCorners;
 use crate::geometry::nearby::Nearby;
 use crate::geometry::polygon::{
     Place, between, distance, distance_to_side, meeting, nearest_share, sides, turn,
@@ -13,10 +14,10 @@ const TURN: f64 = std::f64::consts::FRAC_PI_4;
 /// Cloth narrower than this share of the steps along it asks for shorter ones.
 const SLENDER: f64 = 0.6;
 /// Steps are not made shorter than this for the sake of narrow cloth, in cells.
-const SHORTEST: f64 = 0.125;
-/// Sharp corners excuse narrow cloth beside them: sides further apart than this along the line,
-/// measured by their distance across, are told from the two sides of a corner.
-const APART: f64 = 8.0;
+const SHORTEST: f64 = 0.25;
+/// Sides this far apart along the line, measured by their distance across, face each other over
+/// narrow cloth; nearer ones stand at a corner.
+const APART: f64 = 3.0;
 
 /// Steps of every class of intervals.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +141,7 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
         ends.resize(stretches.len(), (first, stretches.len(), way));
     }
     let near = Nearby::new(&stretches);
+    let narrow = NarrowCorners::new(rings);
     for (number, &(a, b)) in stretches.iter().enumerate() {
         let (first, end, around) = ends[number];
         let next = if number + 1 == end { first } else { number + 1 };
@@ -166,7 +168,8 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
                 width = width.min(across);
             }
         }
-        if width < reach {
+        // Shorter steps do not make a narrow corner wider.
+        if width < reach && !narrow.reach(middle) {
             fault.slender.push((number, (reach / width.max(0.01 * reach)).min(4.0)));
         }
     }

@@ -82,7 +82,7 @@ proptest! {
     }
 
     #[test]
-    fn sharp_corners(rise in 0.002..0.2f64, grain in -1.6..1.6f64) {
+    fn sharp_corners(rise in 0.005..0.2f64, grain in -1.6..1.6f64) {
         let mut wedge = panel("wedge", vec![polygon(&[[0.0, 0.0], [0.3, 0.0], [0.3, rise]])], 8e-3);
         wedge.grain = grain;
         let sharp = survives(wedge)?;
@@ -95,7 +95,8 @@ proptest! {
         let hole = circle([0.1 - radius - gap, 0.0], radius, false);
         let holed = panel("holed", vec![circle([0.0, 0.0], 0.1, true), hole], 8e-3);
         let sharp = survives(holed)?;
-        prop_assert!(sharp <= 6, "{sharp} sharp triangles");
+        // A neck of less than a millimetre is as sharp as it is drawn.
+        prop_assert!(sharp == 0 || gap < 1e-3, "{sharp} sharp triangles");
     }
 
     /// A curve whose handles cross or coincide with its ends.

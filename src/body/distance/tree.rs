@@ -8,16 +8,26 @@ use std::collections::BTreeMap;
 /// Most triangles in a leaf.
 const LEAF: usize = 4;
 
-/// One box: either two children, or triangles `start..start + count`.
-#[derive(Clone, Debug)]
+/// A box as its lower and upper corner, rounded outwards to single precision.
+type Extent = [f32; 6];
+
+/// Two children with their boxes, in one line of the cache.
+#[derive(Clone, Copy, Debug)]
 struct Node {
-    low: [f64; 3],
-    high: [f64; 3],
-    /// Leaves: first triangle. Others: number of the right child (the left one follows directly).
+    extents: [Extent; 2],
+    children: [Child; 2],
+}
+
+/// A node by its number, or a leaf: the slots from `start` on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Child {
     start: u32,
-    /// Triangles in a leaf; 0 for the others.
+    /// Triangles in a leaf; 0 for a node.
     count: u32,
 }
+
+/// A triangle on its way into the tree: its number, its corners, its middle.
+type Item = (u32, [Point3<f64>; 3], Point3<f64>);
 
 /// A nearest place on the surface.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +48,7 @@ pub(super) struct Hit {
 /// Boxes, triangles in the order of the leaves, and the normals that decide inside or outside.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
+    root: Option<(Extent, Child)>,
     nodes: Vec<Node>,
     corners: Vec<[Point3<f64>; 3]>,
     numbers: Vec<u32>,
@@ -51,7 +62,7 @@ impl Tree {
     /// Builds the tree; triangles that name missing vertices are left out.
     pub(super) fn new(surface: &Surface) -> Tree {
         let vertex = |i: u32| surface.vertices.get(i as usize).copied();
-        let mut items: Vec<(u32, [Point3<f64>; 3], Point3<f64>)> = Vec::new();
+        let mut items: Vec<Item> = Vec::new();
         for (number, [a, b, c]) in surface.triangles.iter().enumerate() {
             if let (Some(a), Some(b), Some(c)) = (vertex(*a), vertex(*b), vertex(*c)) {
                 let middle = Point3::from((a.coords + b.coords + c.coords) / 3.0);
@@ -60,14 +71,13 @@ impl Tree {
         }
         let pseudo = pseudonormals(surface);
         let mut nodes = Vec::with_capacity(items.len());
-        if !items.is_empty() {
-            build(&mut items, 0, &mut nodes);
-        }
+        let root = (!items.is_empty()).then(|| build(&mut items, 0, &mut nodes));
         let mut slots = vec![u32::MAX; surface.triangles.len()];
         for (slot, (number, ..)) in items.iter().enumerate() {
             slots[*number as usize] = u32::try_from(slot).unwrap_or(u32::MAX);
         }
         Tree {
+            root,
             nodes,
             normals: items.iter().map(|(number, ..)| pseudo[*number as usize]).collect(),
             numbers: items.iter().map(|(number, ..)| *number).collect(),
@@ -98,38 +108,32 @@ impl Tree {
         {
             try_slot(*slot as usize, &mut bound);
         }
-        let mut stack = [(0_u32, 0.0_f64); 96];
+        // The halves are split at the middle item, so the tree is no deeper than 32.
+        let mut stack = [(Child { start: 0, count: 0 }, 0.0_f64); 40];
         let mut depth = 0;
-        if let Some(root) = self.nodes.first() {
-            stack[0] = (0, root.gap(p));
+        if let Some((extent, child)) = &self.root {
+            stack[0] = (*child, gap(extent, p));
             depth = 1;
         }
         while depth > 0 {
             depth -= 1;
-            let (index, gap) = stack[depth];
-            if gap > bound {
+            let (child, near) = stack[depth];
+            if near > bound {
                 continue;
             }
-            let node = &self.nodes[index as usize];
-            if node.count > 0 {
-                let start = node.start as usize;
-                for slot in start..start + node.count as usize {
+            if child.count > 0 {
+                let start = child.start as usize;
+                for slot in start..start + child.count as usize {
                     try_slot(slot, &mut bound);
                 }
                 continue;
             }
-            let (left, right) = (index + 1, node.start);
-            let (gap_left, gap_right) =
-                (self.nodes[left as usize].gap(p), self.nodes[right as usize].gap(p));
-            let (near, far) = if gap_left <= gap_right {
-                ((left, gap_left), (right, gap_right))
-            } else {
-                ((right, gap_right), (left, gap_left))
-            };
-            // The halves are split at the middle item, so the depth stays below 2 log2(2³²).
-            for entry in [far, near] {
-                if entry.1 <= bound {
-                    stack[depth] = entry;
+            let node = &self.nodes[child.start as usize];
+            let gaps = [gap(&node.extents[0], p), gap(&node.extents[1], p)];
+            let first = usize::from(gaps[1] < gaps[0]);
+            for k in [1 - first, first] {
+                if gaps[k] <= bound {
+                    stack[depth] = (node.children[k], gaps[k]);
                     depth += 1;
                 }
             }
@@ -149,62 +153,64 @@ impl Tree {
 
     /// Whether a box round everything, grown by `margin`, holds `p`.
     pub(super) fn may_hold(&self, p: Point3<f64>, margin: f64) -> bool {
-        self.nodes.first().is_some_and(|root| root.gap(p) <= margin * margin)
+        self.root.is_some_and(|(extent, _)| gap(&extent, p) <= margin * margin)
     }
 }
 
-impl Node {
-    /// Square of the distance from `p` to the box, m².
-    fn gap(&self, p: Point3<f64>) -> f64 {
-        let mut sum = 0.0;
-        for k in 0..3 {
-            let d = (self.low[k] - p[k]).max(p[k] - self.high[k]).max(0.0);
-            sum += d * d;
-        }
-        sum
+/// Square of the distance from `p` to a box, m².
+fn gap(extent: &Extent, p: Point3<f64>) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..3 {
+        let (low, high) = (f64::from(extent[k]), f64::from(extent[k + 3]));
+        let d = (low - p[k]).max(p[k] - high).max(0.0);
+        sum += d * d;
     }
+    sum
+}
+
+/// The box of some triangles.
+fn extent(items: &[Item]) -> Extent {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for corner in items.iter().flat_map(|(_, corners, _)| corners) {
+        for k in 0..3 {
+            low[k] = low[k].min(corner[k]);
+            high[k] = high[k].max(corner[k]);
+        }
+    }
+    std::array::from_fn(|k| {
+        if k < 3 { (low[k] as f32).next_down() } else { (high[k - 3] as f32).next_up() }
+    })
 }
 
 /// Splits the items at the middle of the longest side of their centres' box.
-fn build(
-    items: &mut [(u32, [Point3<f64>; 3], Point3<f64>)],
-    offset: usize,
-    nodes: &mut Vec<Node>,
-) -> usize {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+fn build(items: &mut [Item], offset: usize, nodes: &mut Vec<Node>) -> (Extent, Child) {
+    let extent = extent(items);
+    let count = items.len();
+    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    if count <= LEAF {
+        return (extent, Child { start: number(offset), count: number(count) });
+    }
     let (mut first, mut last) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (_, corners, middle) in items.iter() {
+    for (_, _, middle) in items.iter() {
         for k in 0..3 {
-            for corner in corners {
-                low[k] = low[k].min(corner[k]);
-                high[k] = high[k].max(corner[k]);
-            }
             first[k] = first[k].min(middle[k]);
             last[k] = last[k].max(middle[k]);
         }
     }
+    let axis = (0..3)
+        .max_by(|a, b| (last[*a] - first[*a]).total_cmp(&(last[*b] - first[*b])))
+        .unwrap_or(0);
+    let half = count / 2;
+    items.select_nth_unstable_by(half, |a, b| a.2[axis].total_cmp(&b.2[axis]).then(a.0.cmp(&b.0)));
     let index = nodes.len();
-    let count = items.len();
-    nodes.push(Node {
-        low,
-        high,
-        start: u32::try_from(offset).unwrap_or(u32::MAX),
-        count: if count <= LEAF { u32::try_from(count).unwrap_or(u32::MAX) } else { 0 },
-    });
-    if count > LEAF {
-        let axis = (0..3)
-            .max_by(|a, b| (last[*a] - first[*a]).total_cmp(&(last[*b] - first[*b])))
-            .unwrap_or(0);
-        let half = count / 2;
-        items.select_nth_unstable_by(half, |a, b| {
-            a.2[axis].total_cmp(&b.2[axis]).then(a.0.cmp(&b.0))
-        });
-        let (left, right) = items.split_at_mut(half);
-        build(left, offset, nodes);
-        let right_index = build(right, offset + half, nodes);
-        nodes[index].start = u32::try_from(right_index).unwrap_or(u32::MAX);
-    }
-    index
+    let nothing = Child { start: 0, count: 0 };
+    nodes.push(Node { extents: [extent; 2], children: [nothing; 2] });
+    let (left, right) = items.split_at_mut(half);
+    let (left_extent, left_child) = build(left, offset, nodes);
+    let (right_extent, right_child) = build(right, offset + half, nodes);
+    nodes[index] =
+        Node { extents: [left_extent, right_extent], children: [left_child, right_child] };
+    (extent, Child { start: number(index), count: 0 })
 }
 
 /// Normals of each triangle's face, edges and corners whose side decides inside and outside.

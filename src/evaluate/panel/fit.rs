@@ -31,7 +31,10 @@ impl<'t> Evaluator<'t> {
             return Some(values);
         }
         let first = self.open_panel(id, merged, BTreeMap::new());
-        let fits: Vec<Phrase<'t>> = self.instances[first.0].fields.all("fit").cloned().collect();
+        let opened = self.instances.get(first.0)?;
+        let fits: Vec<Phrase<'t>> = opened.fields.all("fit").cloned().collect();
+        let scope = opened.fields.scope;
+        self.trials.insert(scope);
         let mut ranges: Vec<(String, Quantity, Quantity, Span)> = Vec::new();
         for fit in &fits {
             let name = bare(fit.head.first()?)?.text.clone();
@@ -146,13 +149,23 @@ impl<'t> Evaluator<'t> {
         number: usize,
     ) -> Option<(f64, f64, (Span, Span))> {
         let instance = self.open_panel(id, merged, values);
-        let fit = self.instances.get(instance.0)?.fields.all("fit").nth(number)?.clone();
+        let opened = self.instances.get(instance.0)?;
+        let fit = opened.fields.all("fit").nth(number)?.clone();
+        let scope = opened.fields.scope;
+        self.trials.insert(scope);
         let (left, right) = (fit.value("until")?, fit.value("=")?);
-        let a = self.any_quantity(left)?;
-        let b = self.any_quantity(right)?;
-        // The draft of a trial is not needed any more.
+        let a = self.any_quantity(left);
+        let b = self.any_quantity(right);
+        // What was drawn for a trial is not needed any more.
         if let Some(instance) = self.instances.get_mut(instance.0) {
             instance.draft = State::Done(None);
+            instance.fields.phrases.clear();
+            instance.outline = None;
+            instance.holes.clear();
+        }
+        let (a, b) = (a?, b?);
+        if self.exhausted {
+            return None;
         }
         if !a.fits(b.dimension) && !b.fits(a.dimension) {
             self.tell(

@@ -61,6 +61,7 @@ impl<'t> Evaluator<'t> {
         let item = self.item(id);
         let (span, parent) = (item.span, item.phrase.scope);
         let title = format!("{} `{}`", item.kind.noun(), item.name);
+        self.step(super::super::OPENING, span);
         let scope = self.new_scope(Some(parent));
         self.fits.insert(scope, values);
         let instance = InstanceId(self.instances.len());
