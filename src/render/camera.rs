@@ -37,9 +37,7 @@ const FILL: [f32; 2] = [0.86, 0.89];
 
 /// Turn about the vertical and rise above the horizon of a view, rad. A turn of 0 looks the
 /// wearer in the face; it grows towards the wearer's left.
-fn turn_and_rise(view: View, worn: bool) -> (f32, f32) {
-    // People are taken from breast height; things on tables from above.
-    let rise = if worn { 0.07 } else { 0.34 };
+fn turn_and_rise(view: View, rise: f32) -> (f32, f32) {
     match view {
         View::Front => (0.0, rise),
         View::Side => (std::f32::consts::FRAC_PI_2, rise),
@@ -47,6 +45,16 @@ fn turn_and_rise(view: View, worn: bool) -> (f32, f32) {
         View::ThreeQuarter => (0.70, rise + 0.06),
         View::Top => (0.0, std::f32::consts::FRAC_PI_2),
     }
+}
+
+/// How far the camera stands above the horizon: people are taken from breast height, things that
+/// lie on others from above, what hangs flat straight on.
+fn rise_for(size: &Vector, worn: bool) -> f32 {
+    if worn {
+        return 0.07;
+    }
+    let depth = size.x.min(size.z) / size.y.max(1e-6);
+    0.34 * depth.min(1.0)
 }
 
 impl Framing {
@@ -62,10 +70,11 @@ impl Framing {
         };
         let middle = (low + high) * 0.5;
         let extent = ((high - low).max() * 0.5).max(1e-3);
+        let rise = rise_for(&(high - low), worn);
         let half = if aspect > 1.0 { [LENS, LENS / aspect] } else { [LENS * aspect, LENS] };
         let mut cameras: Vec<Camera> = views
             .iter()
-            .map(|view| Camera::towards(turn_and_rise(*view, worn), middle, extent, half))
+            .map(|view| Camera::towards(turn_and_rise(*view, rise), middle, extent, half))
             .collect();
         // Far enough for every view; then each is moved so that the figure stands in the middle,
         // sideways each by itself, up and down all alike but the one from above.

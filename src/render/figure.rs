@@ -135,37 +135,20 @@ impl<'a> Figure<'a> {
         let mut places: Vec<Vector3<f64>> =
             draped.positions.iter().take(count).map(|place| place.coords).collect();
         let welds = weld(compiled, &mut places);
-        let mut faces = Vec::new();
         for panel in &compiled.panels {
-            let coat = self.coats.len() as u32;
             self.coats.push(Coat::Cloth(self.panel(panel, compiled)));
-            let mut add = |corners: [u32; 3]| {
-                let good = corners.iter().all(|k| {
-                    let place = places.get(*k as usize);
-                    place.is_some_and(|place| place.iter().all(|x| x.abs() < FAR))
-                });
-                if good {
-                    faces.push(Face { corners, coat });
-                }
-            };
-            let cells = compiled.cells.get(panel.cells.range()).unwrap_or_default();
-            for &[a, b, c, d] in cells {
-                let span = |p: u32, q: u32| match (places.get(p as usize), places.get(q as usize)) {
-                    (Some(p), Some(q)) => (p - q).norm_squared(),
-                    _ => 0.0,
-                };
-                // Across the shorter diagonal the cell bends less.
-                if span(a, c) <= span(b, d) {
-                    add([a, b, c]);
-                    add([a, c, d]);
-                } else {
-                    add([a, b, d]);
-                    add([b, c, d]);
-                }
-            }
-            let band = compiled.triangles.get(panel.triangles.range()).unwrap_or_default();
-            band.iter().for_each(|corners| add(*corners));
         }
+        // Cells are cut along the fold that runs through them: first by the shorter diagonal,
+        // then by the one whose ends face the same way.
+        let faces = cloth_faces(compiled, &places, |[a, b, c, d]| {
+            let span = |p: u32, q: u32| (places[p as usize] - places[q as usize]).norm_squared();
+            span(a, c) <= span(b, d)
+        });
+        let first_normals = cloth_normals(&places, &faces, &welds);
+        let faces = cloth_faces(compiled, &places, |[a, b, c, d]| {
+            let alike = |p: u32, q: u32| first_normals[p as usize].dot(&first_normals[q as usize]);
+            alike(a, c) >= alike(b, d)
+        });
         self.selvages = Selvages::of(compiled, &faces);
         let normals = cloth_normals(&places, &faces, &welds);
         let first = self.corners.len() as u32;
@@ -234,6 +217,37 @@ impl<'a> Figure<'a> {
             });
         }
     }
+}
+
+/// Triangles of the cloth; those of panel `n` have the coat `n`. Cells for which `along` holds
+/// are cut from their first corner to their third. What is not near enough to be a place of the
+/// studio is left out.
+fn cloth_faces(
+    compiled: &Compiled,
+    places: &[Vector3<f64>],
+    along: impl Fn([u32; 4]) -> bool,
+) -> Vec<Face> {
+    let good = |k: u32| {
+        let place = places.get(k as usize);
+        place.is_some_and(|place| place.iter().all(|x| x.abs() < FAR))
+    };
+    let mut faces = Vec::new();
+    for (coat, panel) in compiled.panels.iter().enumerate() {
+        let mut add = |corners: [u32; 3]| faces.push(Face { corners, coat: coat as u32 });
+        let cells = compiled.cells.get(panel.cells.range()).unwrap_or_default();
+        for &[a, b, c, d] in cells.iter().filter(|cell| cell.iter().all(|k| good(*k))) {
+            if along([a, b, c, d]) {
+                add([a, b, c]);
+                add([a, c, d]);
+            } else {
+                add([a, b, d]);
+                add([b, c, d]);
+            }
+        }
+        let band = compiled.triangles.get(panel.triangles.range()).unwrap_or_default();
+        band.iter().filter(|corners| corners.iter().all(|k| good(*k))).for_each(|c| add(*c));
+    }
+    faces
 }
 
 /// Draws seam partners that have come together to their common middle, and says for each particle

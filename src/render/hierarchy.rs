@@ -348,13 +348,19 @@ impl Fold<'_> {
     }
 
     /// Triangles under a binary node, counted no further than is of interest.
-    fn count(&self, at: usize) -> usize {
-        match &self.binary[at] {
-            BvhNode::Leaf { .. } => 1,
-            BvhNode::Node { child_l_index, child_r_index, .. } => {
-                // The left subtree of k triangles takes 2k − 1 places.
-                let left = (child_r_index - child_l_index).div_ceil(2);
-                if left > WIDTH { left } else { left + self.count(*child_r_index) }
+    fn count(&self, mut at: usize) -> usize {
+        let mut count = 0;
+        loop {
+            match &self.binary[at] {
+                BvhNode::Leaf { .. } => return count + 1,
+                BvhNode::Node { child_l_index, child_r_index, .. } => {
+                    // The left subtree of k triangles takes 2k − 1 places.
+                    count += (child_r_index - child_l_index).div_ceil(2);
+                    if count > WIDTH {
+                        return count;
+                    }
+                    at = *child_r_index;
+                }
             }
         }
     }

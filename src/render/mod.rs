@@ -6,6 +6,7 @@
 
 mod backdrop;
 mod camera;
+mod coat;
 mod figure;
 mod finish;
 mod floor;
@@ -14,6 +15,7 @@ mod lamp;
 mod pixel;
 mod sample;
 mod selvage;
+mod set;
 mod sheet;
 mod slub;
 mod smooth;

@@ -7,9 +7,10 @@ use super::floor::Floor;
 use super::lamp::Lighting;
 use super::pixel::Pixel;
 use super::sample::Sampler;
+use super::set::Set;
 use super::smooth::Film;
-use super::trace::{Set, Tracer};
-use super::{Options, Vector, tone};
+use super::trace::Tracer;
+use super::{Light3, Options, Vector, tone};
 use crate::garment::scene::{Picture, View};
 use crate::progress::Progress;
 use image::{Rgba, RgbaImage};
@@ -164,6 +165,12 @@ fn grit(x: u32, y: u32) -> f32 {
     Sampler::new(u32::MAX, [x, y], 0, 1).pair()[0]
 }
 
+/// 0 at the left and right edge of a view, 1 from a tenth of its width on.
+fn inside(across: f32) -> f32 {
+    let share = (across.min(1.0 - across) * 10.0).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
 /// Puts a view on the sheet.
 fn develop(film: &Film, floor: &Floor, frame: &Frame, sheet: &mut RgbaImage) {
     let [width, height] = film.size;
@@ -174,8 +181,14 @@ fn develop(film: &Film, floor: &Floor, frame: &Frame, sheet: &mut RgbaImage) {
         .map(|(at, pixel)| {
             let (x, y) = (at % width, at / width);
             let share = |n: usize, of: usize| (n as f32 + 0.5) / of as f32;
-            let paper = paper(share(x, width), share(y, height));
-            let light = pixel.light(&paper.component_mul(&floor.shadow(x, y)));
+            // One paper behind all views of a row; shadows end before the next view begins.
+            let across = share(frame[0] as usize + x, sheet.width() as usize);
+            let paper = paper(across, share(y, height));
+            let shadow = match width < sheet.width() as usize {
+                true => Light3::repeat(1.0).lerp(&floor.shadow(x, y), inside(share(x, width))),
+                false => floor.shadow(x, y),
+            };
+            let light = pixel.light(&paper.component_mul(&shadow));
             tone::developed(&light, grit(x as u32, y as u32))
         })
         .collect();

@@ -27,10 +27,10 @@ impl Slubs {
                 spacing: [warp, weft].map(|thread| (thread.spacing as f32).clamp(5e-5, 0.02)),
                 strength: [warp, weft].map(|thread| unevenness(thread.yarn.fibre)),
             },
-            // A knit's yarn runs along the courses.
+            // A knit's yarn runs along the courses; its loops double every place.
             Structure::Knitted { knit, yarn } => Slubs {
                 spacing: [knit.wales, knit.courses].map(|per| (1.0 / per as f32).clamp(5e-5, 0.02)),
-                strength: [0.0, unevenness(yarn.fibre)],
+                strength: [0.0, 0.45 * unevenness(yarn.fibre)],
             },
         }
     }

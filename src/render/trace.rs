@@ -1,26 +1,11 @@
 //! Paths of light from the camera into the studio.
 
-use super::figure::{Coat, Corner, Figure, Panel};
-use super::finish::{Look, Threads};
-use super::hierarchy::{Hierarchy, Hit, Ray, Stack};
+use super::hierarchy::{Hit, Ray, Stack};
 use super::lamp::Lighting;
-use super::sample::{Sampler, cosine_about, frame};
-use super::tessellate::{Patch, Piece};
+use super::sample::{Sampler, cosine_about};
+use super::set::{Place, Set};
 use super::{Light3, Vector};
-use crate::mesh::compiled::Surface;
-use rayon::prelude::*;
 use std::f32::consts::PI;
-
-/// A figure ready to be looked at.
-#[derive(Debug)]
-pub struct Set<'a> {
-    /// What stands there.
-    pub figure: &'a Figure<'a>,
-    hierarchy: Hierarchy,
-    pieces: Vec<(u32, Piece)>,
-    /// Whether light comes through between some threads.
-    open: bool,
-}
 
 /// What one path saw.
 #[derive(Clone, Copy, Debug)]
@@ -46,89 +31,14 @@ pub struct Seeing {
     pub distance: f32,
 }
 
-/// Triangles that pieces may add up to; beyond it they stay coarser.
-const MOST_PIECES: usize = 1_500_000;
-
 /// Rays start this far off the surface that they leave, in m for things of a metre.
 const LIFT: f32 = 4e-5;
 
 /// What the floor sends back of the light that it gets.
 const FLOOR: f32 = 0.62;
 
-/// Nothing sends back all the light; a cloth that did would never let a fold grow dark.
-const WHITEST: f32 = 0.94;
-
 /// One path's mirrored light counts no more than this, against grain.
 const BRIGHTEST: f32 = 6.0;
-
-impl<'a> Set<'a> {
-    /// Divides the figure into pieces with edges of about `edge` m and builds the hierarchy.
-    pub fn of(figure: &'a Figure<'a>, edge: f32) -> Self {
-        let parts = parts_by_coat(figure, edge);
-        let lists: Vec<Vec<(u32, Piece, [Vector; 3])>> = figure
-            .faces
-            .par_chunks(4096)
-            .enumerate()
-            .map(|(chunk, faces)| {
-                let mut list = Vec::new();
-                for (k, face) in faces.iter().enumerate() {
-                    let corners = face.corners.map(|c| figure.corners[c as usize]);
-                    let patch = Patch::over(corners.map(|c| c.place), corners.map(|c| c.normal));
-                    patch.divide(parts[face.coat as usize], |piece, [a, b, c]| {
-                        if (b - a).cross(&(c - a)).norm_squared() > 1e-24 {
-                            list.push(((chunk * 4096 + k) as u32, piece, [a, b, c]));
-                        }
-                    });
-                }
-                list
-            })
-            .collect();
-        let mut pieces = Vec::new();
-        let mut triangles = Vec::new();
-        for (face, piece, corners) in lists.into_iter().flatten() {
-            pieces.push((face, piece));
-            triangles.push(corners);
-        }
-        let open = figure.coats.iter().any(|coat| match coat {
-            Coat::Cloth(panel) => {
-                panel.surfaces.iter().any(|surface| figure.swatches.open(surface.face))
-            }
-            _ => false,
-        });
-        Set { figure, hierarchy: Hierarchy::over(&triangles), pieces, open }
-    }
-}
-
-/// Into how many parts the edges of the triangles of each coat are divided.
-fn parts_by_coat(figure: &Figure, edge: f32) -> Vec<u8> {
-    // Mean edge of the triangles of each coat: half the root of four times their mean area.
-    let mut sums = vec![(0.0_f64, 0_usize); figure.coats.len()];
-    for face in &figure.faces {
-        let [a, b, c] = face.corners.map(|k| figure.corners[k as usize].place);
-        let sum = &mut sums[face.coat as usize];
-        sum.0 += f64::from((b - a).cross(&(c - a)).norm());
-        sum.1 += 1;
-    }
-    let mut most = 6.0;
-    loop {
-        let parts: Vec<u8> = sums
-            .iter()
-            .map(|(doubled, count)| {
-                let mean = (doubled / (*count).max(1) as f64).sqrt() as f32;
-                (mean / edge).ceil().clamp(1.0, most) as u8
-            })
-            .collect();
-        let total: usize = sums
-            .iter()
-            .zip(&parts)
-            .map(|((_, count), parts)| count * usize::from(*parts) * usize::from(*parts))
-            .sum();
-        if total <= MOST_PIECES || most <= 1.0 {
-            return parts;
-        }
-        most -= 1.0;
-    }
-}
 
 /// One worker's way through the set.
 #[derive(Debug)]
@@ -142,16 +52,6 @@ pub struct Tracer<'a> {
     round: (Vector, f32),
     /// Whether there is a floor.
     floor: bool,
-}
-
-/// A place of the figure where light arrives.
-struct Place {
-    at: Vector,
-    /// Normal of the triangle, towards the side that is seen.
-    flat: Vector,
-    threads: Threads,
-    colour: Light3,
-    look: Look,
 }
 
 impl<'a> Tracer<'a> {
@@ -184,7 +84,7 @@ impl<'a> Tracer<'a> {
     /// Follows one path. `spread` is what a pixel covers at distance 1.
     pub fn path(&mut self, ray: &Ray, spread: f32, sampler: &mut Sampler) -> Seen {
         if let Some(hit) = self.nearest(ray, sampler) {
-            let place = self.place(&hit, ray, Some(spread * hit.distance));
+            let place = self.set.place(&hit, ray, Some(spread * hit.distance));
             return Seen::Figure(self.seeing(ray, &place, hit.distance, sampler));
         }
         Seen::Paper
@@ -269,7 +169,7 @@ impl<'a> Tracer<'a> {
                 None => self.lighting.dome.radiance(&ray.direction),
             };
         };
-        let place = self.place(&hit, ray, None);
+        let place = self.set.place(&hit, ray, None);
         let mut light = Light3::zeros();
         if let Some((direction, lamp)) = self.from_lamps(&place, sampler) {
             let cosine = direction.dot(&place.threads.normal);
@@ -377,158 +277,6 @@ impl<'a> Tracer<'a> {
         let side = if direction.dot(&place.threads.normal) >= 0.0 { 1.0 } else { -1.0 };
         place.at + place.flat * (self.lift * side)
     }
-
-    /// The place of a hit. `window` is what a pixel covers there, m; none for a rough look.
-    fn place(&self, hit: &Hit, ray: &Ray, window: Option<f32>) -> Place {
-        let set = self.set;
-        let figure = set.figure;
-        let (number, piece) = set.pieces[hit.triangle as usize];
-        let face = figure.faces[number as usize];
-        let corners = face.corners.map(|k| figure.corners[k as usize]);
-        let [u, v] = piece.shares(hit.u, hit.v);
-        let w = 1.0 - u - v;
-        let (at, mut flat) = set.hierarchy.place(hit);
-        let mut normal = corners[0].normal * w + corners[1].normal * u + corners[2].normal * v;
-        let length = normal.norm();
-        normal = if length > 1e-6 { normal / length } else { flat };
-        let back = flat.dot(&ray.direction) > 0.0;
-        if back {
-            flat = -flat;
-            normal = -normal;
-        }
-        let normal = turned_to_eye(normal, &ray.direction);
-        let coat = &figure.coats[face.coat as usize];
-        let (colour, look, threads) = match coat {
-            Coat::Plain { colour, look } => (*colour, *look, bare(normal)),
-            Coat::Wood { look } => (wood(&at), *look, bare(normal)),
-            Coat::Cloth(panel) => {
-                let threads = threads(&corners, normal);
-                let rest = [0, 1].map(|k| {
-                    corners[0].rest[k] * f64::from(w)
-                        + corners[1].rest[k] * f64::from(u)
-                        + corners[2].rest[k] * f64::from(v)
-                });
-                // Many paths share a pixel: each needs to cover a part of it only, more where
-                // the cloth is seen at an angle.
-                let slant = 0.35 / normal.dot(&ray.direction).abs().max(0.05);
-                let wide = window.map_or(0.02, |window| window * slant.clamp(0.6, 3.0));
-                let mut colour = figure.cloth_colour(panel, rest, back, wide, &threads, ray);
-                if window.is_some() {
-                    let streak = panel.slubs.map_or(1.0, |slubs| slubs.light(rest, wide));
-                    colour *= (streak * figure.selvages.left(number, rest, wide)).max(0.0);
-                    colour = colour.map(|c| c.min(WHITEST));
-                }
-                (colour, panel.looks[usize::from(back)], threads)
-            }
-        };
-        Place { at, flat, threads, colour, look }
-    }
-}
-
-impl Set<'_> {
-    /// Whether a thread stands at the place of a piece; `choice` decides where threads and gaps
-    /// are too fine to tell.
-    fn solid(&self, triangle: u32, u: f32, v: f32, choice: f32) -> bool {
-        let (face, piece) = self.pieces[triangle as usize];
-        let face = self.figure.faces[face as usize];
-        let Coat::Cloth(panel) = &self.figure.coats[face.coat as usize] else { return true };
-        let [u, v] = piece.shares(u, v).map(f64::from);
-        let [a, b, c] = face.corners.map(|k| self.figure.corners[k as usize].rest);
-        let rest = [0, 1].map(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v);
-        let Some((surface, [u, v])) = panel.surface_at(rest) else { return true };
-        if !self.figure.swatches.open(surface.face) {
-            return true;
-        }
-        // Every layer takes a share of its own of the one number.
-        let share = choice + triangle as f32 * 0.618_034;
-        self.figure.swatches.look(surface.face, u, v, 1e-3).cover > share - share.floor()
-    }
-}
-
-impl Panel {
-    /// The surface that shows at a place of the panel, and the place from its origin.
-    fn surface_at(&self, rest: [f64; 2]) -> Option<(&Surface, [f64; 2])> {
-        let holds = |surface: &&Surface| match surface.area {
-            Some([u0, v0, u1, v1]) => (u0..=u1).contains(&rest[0]) && (v0..=v1).contains(&rest[1]),
-            None => true,
-        };
-        // Rounding at the very edge must not fall between two areas.
-        let surface = self.surfaces.iter().find(holds).or_else(|| self.surfaces.last())?;
-        let [u0, v0] = surface.area.map_or([0.0; 2], |[u0, v0, _, _]| [u0, v0]);
-        Some((surface, [rest[0] - u0, rest[1] - v0]))
-    }
-}
-
-impl Figure<'_> {
-    /// Colour of a panel at a place, seen along the ray through a window `wide` m wide.
-    fn cloth_colour(
-        &self,
-        panel: &Panel,
-        rest: [f64; 2],
-        back: bool,
-        wide: f32,
-        threads: &Threads,
-        ray: &Ray,
-    ) -> Light3 {
-        let Some((surface, [u, v])) = panel.surface_at(rest) else { return panel.plain };
-        let region =
-            if back && self.swatches.has(surface.back) { surface.back } else { surface.face };
-        let mut colour = self.swatches.look(region, u, v, wide).colour;
-        if let Some([warp, weft]) = self.swatches.shot(region) {
-            // Looked at along the weft, the crowns of the warp hide the weft between them, and
-            // the other way round.
-            let along_weft = ray.direction.dot(&threads.weft);
-            let along_warp = ray.direction.dot(&threads.warp);
-            let lean = along_weft * along_weft - along_warp * along_warp;
-            let share = (0.5 + 0.75 * lean).clamp(0.05, 0.95);
-            let turned = warp * share + weft * (1.0 - share);
-            let even = (warp + weft) * 0.5;
-            colour = colour.zip_map(&turned.zip_map(&even, |t, e| t / e.max(1e-3)), |c, f| c * f);
-        }
-        colour.map(|c| c.clamp(0.0, WHITEST))
-    }
-}
-
-/// Directions of warp and weft on a triangle of cloth, from its rest places.
-fn threads(corners: &[Corner; 3], normal: Vector) -> Threads {
-    let [a, b, c] = corners;
-    let (first, second) = (b.place - a.place, c.place - a.place);
-    let [u1, v1] = [0, 1].map(|k| (b.rest[k] - a.rest[k]) as f32);
-    let [u2, v2] = [0, 1].map(|k| (c.rest[k] - a.rest[k]) as f32);
-    let sign = if u1 * v2 - u2 * v1 < 0.0 { -1.0 } else { 1.0 };
-    let weft = (first * v2 - second * v1) * sign;
-    let weft = weft - normal * weft.dot(&normal);
-    let length = weft.norm();
-    if length < 1e-12 {
-        return bare(normal);
-    }
-    let weft = weft / length;
-    Threads { normal, weft, warp: normal.cross(&weft) }
-}
-
-/// Any directions, for surfaces without threads.
-fn bare(normal: Vector) -> Threads {
-    let (weft, warp) = frame(&normal);
-    Threads { normal, warp, weft }
-}
-
-/// The smooth normal may lean away from the eye at the outline; it is brought back to the edge.
-fn turned_to_eye(normal: Vector, direction: &Vector) -> Vector {
-    let away = normal.dot(direction);
-    if away < -0.01 {
-        return normal;
-    }
-    (normal - direction * (away + 0.01)).normalize()
-}
-
-/// Planed wood: rings of a log cut along its length, drawn out along x.
-fn wood(at: &Vector) -> Light3 {
-    let wave = libm::sinf(at.x * 2.1 + 1.3) * 0.011 + libm::sinf(at.x * 5.7 + at.z * 3.0) * 0.004;
-    let (y, z) = (at.y + 0.13 + wave, at.z + 0.31 + wave * 1.7);
-    let ring = (y * y * 6.0 + z * z).sqrt() * 62.0;
-    let late = 0.5 + 0.5 * libm::sinf(ring + libm::sinf(ring * 0.37) * 1.3);
-    let late = late * late * late;
-    Light3::new(0.47, 0.335, 0.215) * (1.0 - 0.26 * late)
 }
 
 #[cfg(test)]
@@ -537,6 +285,8 @@ mod tests {
     use crate::body::surface::{Surface as Solid, SurfaceKind};
     use crate::drape::draped::{Draped, Stats};
     use crate::mesh::compiled::Compiled;
+    use crate::render::figure::{Coat, Figure};
+    use crate::render::finish::Look;
     use crate::render::lamp::Dome;
     use nalgebra::{Point3, Vector3};
 
@@ -606,7 +356,7 @@ mod tests {
             let ray = Ray { origin, direction: -Vector::z(), reach: f32::INFINITY };
             let mut sampler = Sampler::new(0, [0, 0], 0, 1);
             let hit = tracer.nearest(&ray, &mut sampler).expect("the ball is there");
-            let place = tracer.place(&hit, &ray, None);
+            let place = set.place(&hit, &ray, None);
             let radius = (place.at - Vector::y()).norm();
             // Facets of 15° would lie up to 1 − cos 7.5° = 0.0086 inside; the cubic is several
             // times nearer.
