@@ -5,9 +5,6 @@ use crate::mesh::compiled::Compiled;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Raised whenever the same mesh may drape otherwise than before.
-const EDITION: u32 = 1;
-
 /// The place of one drape.
 pub(super) struct Cache {
     file: PathBuf,
@@ -27,7 +24,9 @@ impl Cache {
         for panel in &mut mesh.panels {
             panel.surfaces.clear();
         }
-        let key = Key { version: env!("CARGO_PKG_VERSION"), edition: EDITION, mesh: &mesh };
+        // Another build of the program may drape otherwise, so its own bytes enter too.
+        let program = std::fs::read(std::env::current_exe().ok()?).ok()?;
+        let key = Key { program: *blake3::hash(&program).as_bytes(), mesh: &mesh };
         let bytes = postcard::to_stdvec(&key).ok()?;
         let name = blake3::hash(&bytes).to_hex();
         Some(Cache { file: folder.join(format!("{}.drape", &name[..32])) })
@@ -60,7 +59,6 @@ impl Cache {
 
 #[derive(Serialize)]
 struct Key<'a> {
-    version: &'a str,
-    edition: u32,
+    program: [u8; 32],
     mesh: &'a Compiled,
 }
