@@ -13,46 +13,18 @@ use super::Evaluator;
 use super::fields::{Arg, Phrase, bare};
 use super::garment::Making;
 use super::panel::edge::EdgeRef;
+use super::row::{Corner, Corners, Element, Line, length, rise, same, share};
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::panel::Run;
 use crate::garment::seam::{PanelRun, Seam, SeamKind};
 use crate::units::{self, Dimension};
-use kurbo::Point;
 
 /// Lengths may differ by so much, m, or by this share of the longer one.
 const TOLERANCE: (f64, f64) = (1e-3, 2e-3);
 
 /// Rows of a ring that bend by so much, m, one upwards and one downwards, are twisted.
 const TWIST: f64 = 0.02;
-
-/// Ends of edges nearer than this are one corner, m.
-const CORNER: f64 = 1e-4;
-
-/// An edge of one piece in a seam.
-#[derive(Clone, Debug)]
-struct Element {
-    panel: usize,
-    /// In the direction of drawing.
-    runs: Vec<Run>,
-    length: f64,
-    /// Whether the cloth lies to the left when it is walked as drawn.
-    left: bool,
-    ends: (Point, Point),
-    /// Half or copy that was not said: the seam is made once for each.
-    tag: Option<String>,
-    written: String,
-    edge: EdgeRef,
-}
-
-/// A corner of a piece.
-type Corner = (usize, Point);
-
-/// One side of a seam.
-struct Line {
-    span: Span,
-    elements: Vec<Vec<Element>>,
-}
 
 /// A seam of two sides that is yet to be directed.
 struct Pending<'p, 't> {
@@ -62,78 +34,6 @@ struct Pending<'p, 't> {
     spans: (Span, Span),
     a: Vec<Element>,
     b: Vec<Element>,
-}
-
-fn same(a: Corner, b: Corner) -> bool {
-    a.0 == b.0 && libm::hypot(a.1.x - b.1.x, a.1.y - b.1.y) < CORNER
-}
-
-impl Element {
-    /// Start and end when walked with the cloth to the left (or to the right).
-    fn walked(&self, cloth_left: bool) -> (Corner, Corner) {
-        let (a, b) = ((self.panel, self.ends.0), (self.panel, self.ends.1));
-        if self.left == cloth_left { (a, b) } else { (b, a) }
-    }
-
-    fn runs(&self, cloth_left: bool) -> Vec<PanelRun> {
-        let panel = self.panel;
-        if self.left == cloth_left {
-            self.runs.iter().map(|&run| PanelRun { panel, run }).collect()
-        } else {
-            let turn = |run: &Run| Run { from: run.to, to: run.from, ..*run };
-            self.runs.iter().rev().map(|run| PanelRun { panel, run: turn(run) }).collect()
-        }
-    }
-}
-
-/// Corners that seams bring together.
-#[derive(Default)]
-struct Corners {
-    links: Vec<(Corner, Corner)>,
-}
-
-impl Corners {
-    /// Whether two corners are one, on the panel or through seams.
-    fn joined(&self, a: Corner, b: Corner) -> bool {
-        let mut reached = vec![a];
-        let mut next = 0;
-        while let Some(&at) = reached.get(next) {
-            if same(at, b) {
-                return true;
-            }
-            next += 1;
-            for &(p, q) in &self.links {
-                for (p, q) in [(p, q), (q, p)] {
-                    if same(at, p) && !reached.iter().any(|known| same(*known, q)) {
-                        reached.push(q);
-                    }
-                }
-            }
-        }
-        false
-    }
-
-    /// Whether a row joins end to end when walked with the cloth on that side.
-    fn chains(&self, row: &[Element], cloth_left: bool) -> bool {
-        row.windows(2)
-            .all(|pair| self.joined(pair[0].walked(cloth_left).1, pair[1].walked(cloth_left).0))
-    }
-}
-
-/// How much higher, in the drawings, the inner corners of a row lie than its ends, m; 0 for a
-/// single edge.
-fn rise(row: &[Element], cloth_left: bool) -> f64 {
-    let (Some((last, others)), Some(first)) = (row.split_last(), row.first()) else { return 0.0 };
-    if others.is_empty() {
-        return 0.0;
-    }
-    let inner: f64 = others.iter().map(|element| element.walked(cloth_left).1.1.y).sum();
-    let ends = first.walked(cloth_left).0.1.y + last.walked(cloth_left).1.1.y;
-    inner / others.len() as f64 - ends / 2.0
-}
-
-fn length(row: &[Element]) -> f64 {
-    row.iter().map(|element| element.length).sum()
 }
 
 impl<'t> Evaluator<'t> {
@@ -582,58 +482,5 @@ impl<'t> Evaluator<'t> {
                 return;
             }
         }
-    }
-}
-
-/// The runs between two shares of a row's length.
-fn share(runs: &[PanelRun], from: f64, to: f64) -> Vec<PanelRun> {
-    let whole: f64 = runs.iter().map(|run| run.run.length()).sum();
-    let (low, high) = (from * whole, to * whole);
-    let mut passed = 0.0;
-    let mut out = Vec::new();
-    for part in runs {
-        let run = part.run;
-        let length = run.length();
-        let (a, b) = ((low - passed).max(0.0), (high - passed).min(length));
-        passed += length;
-        if b - a < 1e-7 {
-            continue;
-        }
-        let sense = if run.to > run.from { 1.0 } else { -1.0 };
-        let start = if a <= 1e-9 { run.from } else { run.from + sense * a };
-        let end = if b >= length - 1e-9 { run.to } else { run.from + sense * b };
-        out.push(PanelRun { panel: part.panel, run: Run { from: start, to: end, ..run } });
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn run(piece: usize, from: f64, to: f64) -> PanelRun {
-        PanelRun { panel: 0, run: Run { ring: 0, piece, from, to } }
-    }
-
-    #[test]
-    fn a_share_of_a_row_crosses_its_runs() {
-        let row = [run(0, 0.0, 1.0), run(3, 2.0, 0.0)];
-        let total = |runs: &[PanelRun]| runs.iter().map(|r| r.run.length()).sum::<f64>();
-        assert_eq!(share(&row, 0.0, 1.0), row);
-        let part = share(&row, 0.2, 0.5);
-        assert_eq!(part.len(), 2);
-        assert!((total(&part) - 0.9).abs() < 1e-12);
-        // The second run goes against its piece, so it is cut from its far end.
-        assert_eq!(part[1].run.from, 2.0);
-        assert!((part[1].run.to - 1.5).abs() < 1e-12);
-    }
-
-    #[test]
-    fn corners_join_through_seams() {
-        let at = |x: f64| Point::new(x, 0.0);
-        let corners =
-            Corners { links: vec![((0, at(0.0)), (1, at(5.0))), ((1, at(5.0)), (2, at(1.0)))] };
-        assert!(corners.joined((0, at(0.0)), (2, at(1.0))));
-        assert!(!corners.joined((0, at(0.0)), (2, at(2.0))));
     }
 }

@@ -1,10 +1,12 @@
 //! Panels: from the words of a panel to cut pieces with named edges.
 
+mod dart;
 pub mod edge;
 mod fit;
 mod instance;
 pub(super) mod operation;
 mod outline;
+pub(super) mod shape;
 pub(super) mod sheet;
 
 use super::Evaluator;

@@ -1,0 +1,206 @@
+//! Darts and notches: places along drawn edges, wedges cut out of them.
+
+use super::super::Evaluator;
+use super::super::fields::{Arg, Fields, Phrase};
+use super::shape::SIZE;
+use super::sheet::{self, Cut, Drawn, Sheet};
+use crate::diagnostic::Diagnostic;
+use crate::geometry::curve;
+use crate::syntax::tree::Name;
+use crate::units::{self, Dimension};
+use kurbo::{BezPath, Point, Shape, Vec2};
+use std::f64::consts::PI;
+
+impl<'t> Evaluator<'t> {
+    /// The drawn edge that a phrase names.
+    fn drawn_edge<'d>(
+        &mut self,
+        arg: Arg<'t>,
+        rings: &'d [Vec<Drawn>],
+    ) -> Option<(usize, usize, &'d Drawn)> {
+        let name: &'t Name = self.name_of(arg)?;
+        for (ring, edges) in rings.iter().enumerate() {
+            let found = edges
+                .iter()
+                .enumerate()
+                .find(|(_, edge)| edge.name.as_deref() == Some(name.text.as_str()));
+            if let Some((place, edge)) = found {
+                return Some((ring, place, edge));
+            }
+        }
+        let known = rings.iter().flatten().filter_map(|edge| edge.name.as_deref());
+        self.no_member("this panel", name, known);
+        None
+    }
+
+    /// A place along an edge: a share or a length from its start, or from the end that touches
+    /// the edge named behind `from`.
+    fn along(&mut self, phrase: &Phrase<'t>, rings: &[Vec<Drawn>], edge: &Drawn) -> Option<f64> {
+        let length = curve::length(&edge.path);
+        let arg = phrase.value("at")?;
+        let place = self.quantity_of(arg, &[Dimension::LENGTH, Dimension::NUMBER])?;
+        let mut at = if place.dimension.is_number() { place.value * length } else { place.value };
+        if !(-1e-9..=length + 1e-9).contains(&at) {
+            self.tell(
+                Diagnostic::new("E0303", format!("this edge is {} long", units::length(length)))
+                    .at(arg.expr.span, format!("{} lies beyond its ends", units::length(at)))
+                    .at(edge.span, "the edge"),
+            );
+            return None;
+        }
+        at = at.clamp(0.0, length);
+        let Some(from) = phrase.value("from") else { return Some(at) };
+        let (_, _, neighbour) = self.drawn_edge(from, rings)?;
+        let ends = [curve::start(&neighbour.path), curve::end(&neighbour.path)];
+        let touches =
+            |p: Point| ends.iter().any(|end| libm::hypot(end.x - p.x, end.y - p.y) < sheet::CORNER);
+        if touches(curve::start(&edge.path)) {
+            Some(at)
+        } else if touches(curve::end(&edge.path)) {
+            Some(length - at)
+        } else {
+            self.tell(
+                Diagnostic::new("E0504", "these edges do not touch")
+                    .at(from.expr.span, "counted from here")
+                    .at(phrase.span, "on this edge"),
+            );
+            None
+        }
+    }
+
+    /// The sheet with its darts cut out.
+    pub(super) fn darted(
+        &mut self,
+        fields: &Fields<'t>,
+        rings: &[Vec<Drawn>],
+        name: &str,
+    ) -> Option<Sheet> {
+        let mut cuts: Vec<Vec<Vec<Cut>>> =
+            rings.iter().map(|ring| ring.iter().map(|_| Vec::new()).collect()).collect();
+        let bodies: Vec<BezPath> = rings
+            .iter()
+            .map(|ring| {
+                sheet::closed(&ring.iter().map(|edge| edge.path.clone()).collect::<Vec<_>>())
+            })
+            .collect();
+        let mut sound = true;
+        for (number, phrase) in fields.all("dart").enumerate() {
+            let label = phrase
+                .label
+                .map_or_else(|| format!("dart{}", number + 1), |label| label.text.clone());
+            match self.dart(phrase, rings, &bodies, label) {
+                Some((ring, place, cut)) => cuts[ring][place].push(cut),
+                None => sound = false,
+            }
+        }
+        for (edge, list) in rings.iter().flatten().zip(cuts.iter_mut().flatten()) {
+            list.sort_by(|a, b| a.mouth.0.total_cmp(&b.mouth.0));
+            for pair in list.windows(2) {
+                if pair[0].mouth.1 > pair[1].mouth.0 - 1e-6 {
+                    self.tell(
+                        Diagnostic::new("E0406", format!("two darts of `{name}` overlap"))
+                            .at(pair[1].span, "this one")
+                            .at(pair[0].span, "and this one")
+                            .at(edge.span, "on this edge"),
+                    );
+                    sound = false;
+                }
+            }
+        }
+        if !sound {
+            return None;
+        }
+        let mut sheet = Sheet::default();
+        for (ring, list) in rings.iter().zip(&cuts) {
+            sheet.add_ring(ring, list);
+        }
+        Some(sheet)
+    }
+
+    fn dart(
+        &mut self,
+        phrase: &Phrase<'t>,
+        rings: &[Vec<Drawn>],
+        bodies: &[BezPath],
+        name: String,
+    ) -> Option<(usize, usize, Cut)> {
+        let (ring, place, edge) = self.drawn_edge(phrase.value("on")?, rings)?;
+        let middle = self.along(phrase, rings, edge)?;
+        let width = self.within_range(phrase.value("width")?, Dimension::LENGTH, 1e-4, SIZE)?;
+        let length = curve::length(&edge.path);
+        let inside = |p: Point| {
+            bodies.first().is_some_and(|outline| outline.winding(p) != 0)
+                && bodies.iter().skip(1).all(|hole| hole.winding(p) == 0)
+        };
+        let fits = |a: f64, b: f64| a >= 1e-4 && b <= length - 1e-4;
+        let beyond = |ev: &mut Self| {
+            ev.tell(
+                Diagnostic::new("E0406", "this dart is wider than the edge at its place")
+                    .at(phrase.span, format!("{} wide", units::length(width)))
+                    .at(edge.span, format!("{} long", units::length(length)))
+                    .help("a dart must leave at least 0.1 mm of the edge on both sides"),
+            );
+        };
+        let mouth = (middle - width / 2.0, middle + width / 2.0);
+        if !fits(mouth.0, mouth.1) {
+            beyond(self);
+            return None;
+        }
+        let (a, _) = curve::at(&edge.path, mouth.0);
+        let (b, _) = curve::at(&edge.path, mouth.1);
+        let (corners, tip) = if let Some(to) = phrase.value("to") {
+            let [x, y] = self.point(to)?;
+            let tip = Point::new(x, y);
+            // Both legs get the mean of their lengths; the edge is trued to them.
+            let (first, second) = (a - tip, b - tip);
+            let (p, q) = (libm::hypot(first.x, first.y), libm::hypot(second.x, second.y));
+            let leg = 0.5 * (p + q);
+            if leg < 1e-3 || (p - q).abs() > 0.4 * leg.min(length) {
+                self.tell(
+                    Diagnostic::new("E0406", "the legs of this dart cannot be made equal")
+                        .at(phrase.span, format!("they differ by {}", units::length((p - q).abs())))
+                        .at(to.expr.span, "the tip")
+                        .help("move the tip nearer to the middle of the mouth, or use `depth`"),
+                );
+                return None;
+            }
+            ((tip + first * (leg / p), tip + second * (leg / q)), tip)
+        } else {
+            let depth = self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
+            let across = b - a;
+            let size = libm::hypot(across.x, across.y).max(f64::MIN_POSITIVE);
+            let left = Vec2::new(-across.y / size, across.x / size);
+            let foot = a.midpoint(b);
+            let near = foot + left * 1e-3;
+            let inward = if inside(near) { left } else { -left };
+            ((a, b), foot + inward * depth)
+        };
+        if !inside(tip) {
+            self.tell(
+                Diagnostic::new("E0406", "the tip of this dart lies outside the cloth")
+                    .at(phrase.span, "here")
+                    .help("make it less deep, or move it along the edge"),
+            );
+            return None;
+        }
+        Some((ring, place, Cut { name, span: phrase.span, mouth, corners, tip }))
+    }
+
+    pub(super) fn notched(
+        &mut self,
+        fields: &Fields<'t>,
+        rings: &[Vec<Drawn>],
+        sheet: &mut Sheet,
+    ) -> Option<()> {
+        let outline = sheet.rings.first().map(|pieces| sheet::closed(pieces))?;
+        for phrase in fields.all("notch") {
+            let (_, _, edge) = self.drawn_edge(phrase.value("on")?, rings)?;
+            let place = self.along(phrase, rings, edge)?;
+            let (at, direction) = curve::at(&edge.path, place);
+            let left = curve::unit(direction + PI / 2.0);
+            let inward = if outline.winding(at + left * 1e-4) != 0 { left } else { -left };
+            sheet.notches.push((at, inward));
+        }
+        Some(())
+    }
+}

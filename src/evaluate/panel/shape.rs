@@ -1,0 +1,129 @@
+//! Shapes of panels: rectangles, discs, rings, and holes in them.
+
+use super::super::Evaluator;
+use super::super::fields::{Arg, Phrase};
+use super::sheet::Drawn;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::geometry::curve;
+use crate::units::{self, Dimension};
+use kurbo::{BezPath, Point};
+use std::f64::consts::{PI, TAU};
+
+/// A pattern piece may be so large, m.
+pub(super) const SIZE: f64 = 100.0;
+
+impl<'t> Evaluator<'t> {
+    /// A rectangle, disc or ring as drawn edges.
+    pub(super) fn shape(&mut self, phrase: &Phrase<'t>) -> Option<Vec<Vec<Drawn>>> {
+        let positive = |ev: &mut Self, arg: Option<Arg<'t>>| {
+            ev.within_range(arg?, Dimension::LENGTH, 1e-4, SIZE)
+        };
+        let span = phrase.span;
+        let edge = |name: &str, path: BezPath| Drawn { name: Some(name.to_owned()), span, path };
+        let circle = |radius: f64, name: &str| {
+            let mut path = curve::arc(Point::new(0.0, -radius), Point::ZERO, TAU);
+            curve::end_at(&mut path, Point::new(0.0, -radius));
+            vec![edge(name, path)]
+        };
+        match phrase.word.name {
+            "rectangle" => {
+                let width = positive(self, phrase.arg(0))?;
+                let height = positive(self, phrase.arg(1))?;
+                Some(vec![rectangle([-width / 2.0, 0.0], [width / 2.0, height], span)])
+            }
+            "circle" => {
+                let radius = positive(self, phrase.value("radius"))?;
+                Some(vec![circle(radius, "rim")])
+            }
+            _ => {
+                let inner = positive(self, phrase.value("inner"))?;
+                let outer = positive(self, phrase.value("outer"))?;
+                if outer <= inner + 1e-4 {
+                    self.tell(
+                        Diagnostic::new("E0303", "the outer radius of a ring is the greater one")
+                            .at(
+                                span,
+                                format!("{} and {}", units::length(inner), units::length(outer)),
+                            ),
+                    );
+                    return None;
+                }
+                let sweep = match phrase.value("sweep") {
+                    Some(arg) => self.within_range(arg, Dimension::ANGLE, 0.01, TAU)?,
+                    None => TAU,
+                };
+                if sweep > TAU - 1e-6 {
+                    return Some(vec![circle(outer, "outer"), circle(inner, "inner")]);
+                }
+                // The middle of the ring lies below the centre, as a skirt hangs.
+                let from = -PI / 2.0 - sweep / 2.0;
+                let at = |radius: f64, angle: f64| Point::ZERO + curve::unit(angle) * radius;
+                let (a, b) = (at(inner, from), at(outer, from));
+                let outer_arc = curve::arc(b, Point::ZERO, sweep);
+                let c = curve::end(&outer_arc);
+                let d = at(inner, from + sweep);
+                let mut inner_arc = curve::arc(d, Point::ZERO, -sweep);
+                curve::end_at(&mut inner_arc, a);
+                Some(vec![vec![
+                    edge("start", curve::line(a, b)),
+                    edge("outer", outer_arc),
+                    edge("end", curve::line(c, d)),
+                    edge("inner", inner_arc),
+                ]])
+            }
+        }
+    }
+
+    pub(super) fn hole(
+        &mut self,
+        phrase: &Phrase<'t>,
+        read: Option<&super::Fields<'t>>,
+        name: &str,
+    ) -> Option<Vec<Drawn>> {
+        if phrase.says("circle") {
+            let (Some(at), Some(radius)) = (phrase.value("at"), phrase.value("radius")) else {
+                self.tell(
+                    Diagnostic::new("E0208", "a round hole wants `at POINT radius LENGTH`")
+                        .at(phrase.span, "missing here"),
+                );
+                return None;
+            };
+            let [x, y] = self.point(at)?;
+            let radius = self.within_range(radius, Dimension::LENGTH, 1e-4, SIZE)?;
+            let from = Point::new(x, y - radius);
+            let mut path = curve::arc(from, Point::new(x, y), TAU);
+            curve::end_at(&mut path, from);
+            let name = phrase.label.map(|label| label.text.clone());
+            return Some(vec![Drawn { name, span: phrase.span, path }]);
+        }
+        let (Some(from), Some(read)) = (phrase.value("from"), read) else {
+            self.tell(
+                Diagnostic::new("E0208", "a hole wants its edges")
+                    .at(phrase.span, "here")
+                    .help("`hole from P { edges }` or `hole circle at P radius L`"),
+            );
+            return None;
+        };
+        let start = self.point(from)?;
+        self.draw(read, start, from.expr.span, &format!("a hole in `{name}`"))
+    }
+}
+
+/// The edges of a rectangle between two corners: bottom, end, top, start.
+pub(in super::super) fn rectangle(low: [f64; 2], high: [f64; 2], span: Span) -> Vec<Drawn> {
+    let corners = [
+        Point::new(low[0], low[1]),
+        Point::new(high[0], low[1]),
+        Point::new(high[0], high[1]),
+        Point::new(low[0], high[1]),
+    ];
+    ["bottom", "end", "top", "start"]
+        .iter()
+        .enumerate()
+        .map(|(i, name)| Drawn {
+            name: Some((*name).to_owned()),
+            span,
+            path: curve::line(corners[i], corners[(i + 1) % 4]),
+        })
+        .collect()
+}
