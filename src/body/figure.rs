@@ -140,10 +140,10 @@ const FEMALE: Template = Template {
     ],
     chest: Swelling {
         station: 4,
-        middle: [0.0, 0.002, -0.030],
-        radii: [0.058, 0.060, 0.064],
-        up: 0.095,
-        blend: 0.055,
+        middle: [0.0, 0.004, -0.036],
+        radii: [0.072, 0.068, 0.070],
+        up: 0.120,
+        blend: 0.090,
     },
     seat: Swelling {
         station: 1,
