@@ -1,5 +1,7 @@
 //! How long it takes to cut panels of a million particles and to write them down.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::Span;
 use darzi::garment::Garment;
 use darzi::garment::cloth::Surface;

@@ -1,6 +1,8 @@
 //! How long a picture takes: a skirt on a form, 900 × 1200, at the default quality.
 //! `cargo bench --bench render`
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout, dead_code)]
+
 #[path = "../tests/render/studio.rs"]
 mod studio;
 

@@ -1,5 +1,7 @@
 //! Mannequins of many sizes: sound surfaces, girths as asked, places where a tailor looks for them.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::body::surface::{BodyPart, Landmark, Surface};
 use darzi::body::{check, mannequin, tape};
 use darzi::diagnostic::{FileId, Span};

@@ -1,6 +1,8 @@
 //! Pictures of the mannequins without the renderer, for looking at their shape. They are written
 //! into the target's `tmp` folder; the test holds that a figure stands free and is symmetric.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::body::mannequin;
 use darzi::body::surface::Surface;
 use darzi::diagnostic::Span;

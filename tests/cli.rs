@@ -1,5 +1,7 @@
 //! The program as a user calls it: exit codes, messages, whole files or none.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -1,6 +1,8 @@
 //! Damaged copies of sound texts: whatever is deleted, doubled or exchanged, reading ends in
 //! time and in good order, and every place that is told of lies in the text.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::{FileId, Texts, json, render};
 use darzi::evaluate::{Options, evaluate};
 use darzi::mesh;

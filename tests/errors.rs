@@ -1,5 +1,7 @@
 //! What people read when a text is wrong: one transcript for each kind of mistake.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::{Diagnostic, json, render};
 use darzi::evaluate::{Options, evaluate};
 use darzi::syntax::parse;

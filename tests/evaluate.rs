@@ -1,5 +1,7 @@
 //! From text to garment: what the examples are worked out to, and what is said of mistakes.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::{Diagnostic, render};
 use darzi::evaluate::{Options, evaluate};
 use darzi::garment::Garment;

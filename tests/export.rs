@@ -1,5 +1,7 @@
 //! OBJ and GLB of a draped figure: the structure that readers rely on.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::body::surface::{Surface as Body, SurfaceKind};
 use darzi::drape::draped::{Draped, Stats};
 use darzi::export::{glb, obj};

@@ -1,5 +1,7 @@
 //! The library of the language: everything in it can be made, and is documented.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::render;
 use darzi::evaluate::{Options, evaluate};
 use darzi::syntax::parse;

@@ -1,5 +1,7 @@
 //! The tour of the language is read without a word of complaint.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 use darzi::diagnostic::render;
 use darzi::syntax::parse;
 use darzi::world::{Memory, World};

@@ -131,7 +131,7 @@ pub fn settle(
         }
         let slow = (speed_now / speed.max(1e-5)).clamp(1.0, 1e6);
         progress.share(
-            (course.time / within).max(1.0 - (slow.ln() / 8.0).min(1.0)).min(1.0),
+            (course.time / within).max(1.0 - (libm::log(slow) / 8.0).min(1.0)).min(1.0),
             &format!("{:.1} mm/s", speed_now.min(taken.speed) * 1e3),
         );
     }

@@ -51,7 +51,7 @@ fn replaces(statement: &Statement) -> Option<&str> {
 }
 
 /// The first word of a labelled action: `shaping: dart on …`.
-fn labelled<'t>(phrase: &'t [Item]) -> Option<&'t Name> {
+fn labelled(phrase: &[Item]) -> Option<&Name> {
     match phrase.first() {
         Some(Item::Expr(expr)) => bare(expr),
         _ => None,

@@ -81,7 +81,7 @@ impl Band {
         for point in 0..band.ground.depth.len() {
             let depth = band.ground.depth[point];
             let on_outline = band.ground.on_outline[point] != u32::MAX;
-            if on_outline || (depth >= 0.0 && depth < super::lattice::FAR) {
+            if on_outline || (0.0..super::lattice::FAR).contains(&depth) {
                 band.place_in_near[point] = band.near.len() as u32;
                 band.near.push(point);
                 band.kept.push(!on_outline && depth >= NEAREST);

@@ -298,8 +298,8 @@ mod tests {
             for side in 0..2 * SIDES {
                 let polar = f64::from(ring) * std::f64::consts::PI / f64::from(SIDES);
                 let turn = f64::from(side) * std::f64::consts::PI / f64::from(SIDES);
-                let (sin, cos) = polar.sin_cos();
-                let normal = Vector3::new(sin * turn.sin(), -cos, sin * turn.cos());
+                let (sin, cos) = libm::sincos(polar);
+                let normal = Vector3::new(sin * libm::sin(turn), -cos, sin * libm::cos(turn));
                 surface.vertices.push(Point3::from(normal + Vector3::y()));
                 surface.normals.push(normal);
             }

@@ -144,7 +144,7 @@ impl Weave {
             return Err(WeaveError::TooLarge);
         }
         let row = |pick: usize| -> Vec<bool> {
-            (0..2 * ends).map(|end| (end / ends + pick / picks) % 2 == 0).collect()
+            (0..2 * ends).map(|end| (end / ends + pick / picks).is_multiple_of(2)).collect()
         };
         Ok(Weave { name, rows: (0..2 * picks).map(row).collect() })
     }

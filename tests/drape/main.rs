@@ -1,5 +1,7 @@
 //! Garments on a body, from panels to rest.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 mod pattern;
 
 use darzi::drape::draped::Draped;
@@ -17,7 +19,7 @@ impl Progress for Loud {
     fn share(&mut self, done: f64, note: &str) {
         use std::sync::atomic::{AtomicUsize, Ordering};
         static N: AtomicUsize = AtomicUsize::new(0);
-        if N.fetch_add(1, Ordering::Relaxed) % 10 == 0 {
+        if N.fetch_add(1, Ordering::Relaxed).is_multiple_of(10) {
             println!("{done:.3} {note}");
         }
     }

@@ -1,5 +1,7 @@
 //! Panels and seams as they are compiled.
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
 mod awkward;
 mod golden;
 mod outlines;

@@ -19,10 +19,7 @@ fn made(text: &str) -> (Option<Made>, Vec<String>) {
     ev.file(&[]);
     let last = (0..ev.items.len())
         .map(ItemId)
-        .filter(|id| ev.item(*id).span.file == root)
-        // The parts that a sari writes in its own block are items too.
-        .filter(|id| !["ang", "lower kath", "upper kath", "padar"].contains(&&*ev.item(*id).name))
-        .next_back();
+        .filter(|id| ev.item(*id).span.file == root).rfind(|id| !["ang", "lower kath", "upper kath", "padar"].contains(&&*ev.item(*id).name));
     let made = last.and_then(|id| {
         let span = ev.item(id).span;
         ev.make(id, span)

@@ -73,8 +73,8 @@ mod tests {
     #[test]
     fn what_cannot_fit_is_said() {
         assert_eq!(shelves(&[[8193, 4]]), None);
-        assert_eq!(shelves(&vec![[4096, 4096]; 5]), None);
-        assert!(shelves(&vec![[4096, 4096]; 4]).is_some());
+        assert_eq!(shelves(&[[4096, 4096]; 5]), None);
+        assert!(shelves(&[[4096, 4096]; 4]).is_some());
         assert_eq!(shelves(&[]), Some((vec![], [0, 0])));
     }
 }
