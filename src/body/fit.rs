@@ -58,7 +58,7 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
     let mut corrections: Corrections = names.iter().map(|name| (*name, 1.0)).collect();
     let mut form = Form::new(request, measures, &corrections)?;
     let mut last = None;
-    let mut within = [0.0, 2.5];
+    let mut within = [0.0_f64, 2.5];
     for round in 0..=ROUNDS {
         let all = stations(request.figure, &form);
         let found: Vec<(&'static str, f64)> = names
