@@ -140,10 +140,10 @@ const FEMALE: Template = Template {
     ],
     chest: Swelling {
         station: 4,
-        middle: [0.0, 0.004, -0.036],
-        radii: [0.072, 0.068, 0.070],
-        up: 0.120,
-        blend: 0.090,
+        middle: [0.0, 0.003, -0.034],
+        radii: [0.067, 0.065, 0.068],
+        up: 0.112,
+        blend: 0.075,
     },
     seat: Swelling {
         station: 1,

@@ -58,6 +58,7 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
     let mut corrections: Corrections = names.iter().map(|name| (*name, 1.0)).collect();
     let mut form = Form::new(request, measures, &corrections)?;
     let mut last = None;
+    let mut within = [0.0_f64, 2.5];
     for round in 0..=ROUNDS {
         let all = stations(request.figure, &form);
         let found: Vec<(&'static str, f64)> = names
@@ -84,7 +85,18 @@ pub(super) fn fit(request: &BodyRequest, measures: &Measures) -> Result<Form, Ve
                 });
                 last = Some((*factor, girth));
                 let gain = if gain.is_finite() { gain.clamp(0.4, 4.0) } else { 1.8 };
-                *factor = (*factor + off(name, girth) / (gain * BREAST_STAND)).clamp(0.0, 2.5);
+                // The girth grows with the factor, so what is known of it bounds the next one.
+                if off(name, girth) > 0.0 {
+                    within[0] = within[0].max(*factor);
+                } else {
+                    within[1] = within[1].min(*factor);
+                }
+                let next = *factor + off(name, girth) / (gain * BREAST_STAND);
+                *factor = if next > within[0] && next < within[1] {
+                    next
+                } else {
+                    0.5 * (within[0] + within[1])
+                };
             } else {
                 let ratio = (measures.get(name) / girth.max(1e-3)).clamp(0.6, 1.6);
                 *factor = (*factor * libm::pow(ratio, 1.15)).clamp(0.3, 3.0);

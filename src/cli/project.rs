@@ -53,10 +53,7 @@ impl Project {
     /// # Errors
     /// [`Stop::Input`] if anything is.
     pub(super) fn garments(&mut self, input: &Input) -> Result<Vec<Garment>, Stop> {
-        let options = evaluate::Options {
-            set: input.set.clone(),
-            names: input.name.iter().cloned().collect(),
-        };
+        let options = evaluate::Options { set: input.set.clone(), ..Default::default() };
         let (garments, diagnostics) = evaluate::evaluate(&mut self.world, self.root, &options);
         self.tell(&diagnostics);
         if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(garments) }

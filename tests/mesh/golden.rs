@@ -121,7 +121,10 @@ fn the_file_says_what_the_mesh_holds() {
     assert_eq!(file["darzi-mesh"], 1);
     let list = |name: &str| file[name].as_array().expect("a list").clone();
     let particles: Vec<f64> = list("particles").iter().filter_map(|x| x.as_f64()).collect();
-    assert_eq!(particles, mesh.particles.concat());
+    // The reader may miss the last bit of a number; the writer does not.
+    let written = mesh.particles.concat();
+    assert_eq!(particles.len(), written.len());
+    assert!(particles.iter().zip(&written).all(|(a, b)| (a - b).abs() < 1e-15));
     let corners: Vec<u64> = list("triangles").iter().filter_map(|x| x.as_u64()).collect();
     assert_eq!(corners.len(), 3 * mesh.triangles.len());
     assert_eq!(list("lattice").len(), 2 * mesh.particles.len());
