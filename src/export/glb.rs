@@ -54,6 +54,8 @@ struct Scene {
     materials: Vec<Value>,
     textures: Vec<Value>,
     images: Vec<Value>,
+    /// Wrapping of each sampler.
+    wraps: Vec<u32>,
     /// Materials of fabrics and regions already made.
     textiles: BTreeMap<(usize, Option<usize>), usize>,
     bodies: BTreeMap<bool, usize>,
@@ -81,7 +83,11 @@ impl Scene {
             self.images.push(json!({
                 "name": region.name, "bufferView": view, "mimeType": "image/png"
             }));
-            let sampler = usize::from(!region.tiles);
+            let wrap = if region.tiles { REPEAT } else { CLAMP };
+            let sampler = self.wraps.iter().position(|&known| known == wrap).unwrap_or_else(|| {
+                self.wraps.push(wrap);
+                self.wraps.len() - 1
+            });
             self.textures.push(json!({ "sampler": sampler, "source": self.images.len() - 1 }));
             surface["baseColorTexture"] = json!({ "index": self.textures.len() - 1 });
             if cutting.open {
@@ -219,13 +225,10 @@ impl Scene {
             file["scenes"][0]["nodes"] = json!(roots);
             file["buffers"] = json!([{ "byteLength": self.chunk.bytes.len() }]);
         }
-        if !self.textures.is_empty() {
-            let sampler = |wrap: u32| {
-                // Linear between pixels, linear between the two nearest levels.
-                json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap })
-            };
-            file["samplers"] = json!([sampler(REPEAT), sampler(CLAMP)]);
-        }
+        let sampler = |wrap: &u32| {
+            // Linear between pixels, linear between the two nearest levels.
+            json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap })
+        };
         if self.sheen {
             file["extensionsUsed"] = json!(["KHR_materials_sheen"]);
         }
@@ -236,6 +239,7 @@ impl Scene {
             ("materials", self.materials),
             ("textures", self.textures),
             ("images", self.images),
+            ("samplers", self.wraps.iter().map(sampler).collect()),
             ("accessors", self.chunk.accessors),
             ("bufferViews", self.chunk.views),
         ] {

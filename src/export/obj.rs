@@ -12,6 +12,7 @@ use crate::body::surface::SurfaceKind;
 use crate::drape::draped::Draped;
 use crate::mesh::compiled::Compiled;
 use crate::textile::Colour;
+use nalgebra::{Point3, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
@@ -57,15 +58,14 @@ fn objects(
     writeln!(out, "# vertex k is particle k - 1 of mesh.json; vt counts repeats of the picture")?;
     writeln!(out, "mtllib {}.mtl", line(stem))?;
     let count = draped.positions.len();
-    for place in &draped.positions {
-        vertex(out, "v", [place.x, place.y, place.z])?;
-    }
-    for normal in normals(compiled, &draped.positions) {
-        vertex(out, "vn", [normal.x, normal.y, normal.z])?;
-    }
+    let normals = normals(compiled, &draped.positions);
+    let mut written = 0;
     let mut marks = 0usize;
     for panel in &compiled.panels {
         writeln!(out, "o {}", word(&panel.name))?;
+        let end = panel.particles.range().end.min(count);
+        vertices(out, draped.positions.iter().zip(&normals).take(end).skip(written))?;
+        written = written.max(end);
         for patch in patches(compiled, panel) {
             let inside = |corners: &[u32]| corners.iter().all(|&c| (c as usize) < count);
             let cells: Vec<&[u32; 4]> = patch.cells.iter().filter(|c| inside(*c)).collect();
@@ -95,6 +95,8 @@ fn objects(
             }
         }
     }
+    // Particles of no panel: there are none, but numbers must stay right.
+    vertices(out, draped.positions.iter().zip(&normals).skip(written))?;
     if with_body {
         let mut first = count + 1;
         for surface in &draped.surfaces {
@@ -117,6 +119,20 @@ fn objects(
             }
             first += surface.vertices.len();
         }
+    }
+    Ok(())
+}
+
+/// Places, then normals.
+fn vertices<'a>(
+    out: &mut String,
+    vertices: impl Iterator<Item = (&'a Point3<f64>, &'a Vector3<f64>)> + Clone,
+) -> fmt::Result {
+    for (place, _) in vertices.clone() {
+        vertex(out, "v", [place.x, place.y, place.z])?;
+    }
+    for (_, normal) in vertices {
+        vertex(out, "vn", [normal.x, normal.y, normal.z])?;
     }
     Ok(())
 }

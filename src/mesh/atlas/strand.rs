@@ -128,6 +128,7 @@ impl Window {
         let length = square.sqrt();
         let beyond = OVERLAP * a.half.max(b.half) / length;
         let (left, right) = (left.floor() as i64, right.ceil() as i64);
+        let peak = a.at[2].max(b.at[2]) + a.half.max(b.half) * strand.flatness;
         let left_column = left.rem_euclid(self.width as i64) as usize;
         for row in low.floor() as i64..=high.ceil() as i64 {
             let place = row.rem_euclid(self.height as i64) as usize;
@@ -142,6 +143,9 @@ impl Window {
             for column in left..=right {
                 let seen = &mut row_seen[at];
                 at = if at + 1 == self.width { 0 } else { at + 1 };
+                if peak <= seen.height {
+                    continue;
+                }
                 let x = column as f32 + 0.5 - a.at[0];
                 let t = (x * dx + y * dy) / square;
                 if t < -beyond || t > 1.0 + beyond {
