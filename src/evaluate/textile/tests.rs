@@ -19,7 +19,8 @@ fn made(text: &str) -> (Option<Made>, Vec<String>) {
     ev.file(&[]);
     let last = (0..ev.items.len())
         .map(ItemId)
-        .filter(|id| ev.item(*id).span.file == root).rfind(|id| !["ang", "lower kath", "upper kath", "padar"].contains(&&*ev.item(*id).name));
+        .filter(|id| ev.item(*id).span.file == root)
+        .rfind(|id| !["ang", "lower kath", "upper kath", "padar"].contains(&&*ev.item(*id).name));
     let made = last.and_then(|id| {
         let span = ev.item(id).span;
         ev.make(id, span)
