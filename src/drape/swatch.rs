@@ -2,7 +2,7 @@
 
 use super::skin::{Nearest, Skin};
 use crate::garment::scene::Placement;
-use crate::mesh::compiled::{Compiled, MeshPanel, MeshSeam, Stretch};
+use crate::mesh::compiled::{Compiled, MeshPanel, Stretch};
 use crate::textile::Colour;
 use crate::textile::fabric::{Fabric, Finish, Structure};
 use crate::textile::knit::{Knit, Stitch};
@@ -106,21 +106,6 @@ pub fn irregular(mut compiled: Compiled, cells: [usize; 2], h: f64) -> Compiled 
     panel.cells = Stretch::default();
     panel.triangles = Stretch { start: 0, end: compiled.triangles.len() as u32 };
     compiled
-}
-
-/// Sews the right edge of each rectangle to the left edge of the next.
-pub fn sew_in_a_row(compiled: &mut Compiled, cells: [usize; 2]) {
-    let [n, m] = cells;
-    let size = (n + 1) * (m + 1);
-    for number in 1..compiled.panels.len() {
-        let pairs = (0..=m)
-            .map(|j| {
-                let row = j * (n + 1);
-                [((number - 1) * size + row + n) as u32, (number * size + row) as u32]
-            })
-            .collect();
-        compiled.seams.push(MeshSeam { name: format!("seam{number}"), pairs });
-    }
 }
 
 /// No skin at all.
