@@ -16,14 +16,11 @@ pub(super) struct Check {
 impl Check {
     pub(super) fn run(self) -> Result<(), Stop> {
         let mut project = Project::open(&self.input)?;
-        let garments = project.garments(&self.input)?;
+        let (garments, mut told) = project.evaluate(&self.input);
         for garment in &garments {
             let compiled = crate::mesh::compile(garment, &crate::mesh::Options::default());
-            if let Err(diagnostics) = compiled {
-                project.tell(&diagnostics);
-                return Err(Stop::Input);
-            }
+            told.extend(compiled.err().into_iter().flatten());
         }
-        Ok(())
+        project.tell_all(told)
     }
 }
