@@ -20,6 +20,7 @@ mod module;
 mod operator;
 pub mod panel;
 mod place;
+mod poison;
 mod read;
 mod row;
 pub mod sari;

@@ -260,6 +260,7 @@ impl<'t> Evaluator<'t> {
                 title: String::new(),
                 scope,
                 phrases: Vec::new(),
+                spoiled: Vec::new(),
             };
             (scope, fields)
         })
