@@ -1,6 +1,6 @@
 //! Panels that nobody should draw end in cloth or in a message, never in a panic.
 
-use crate::sewing::{circle, curve, garment, line, panel, polygon};
+use crate::sewing::{cases, circle, curve, garment, line, panel, polygon};
 use darzi::garment::panel::{Loop, Panel};
 use darzi::mesh::validate::validate;
 use darzi::mesh::{Options, compile};
@@ -40,7 +40,7 @@ fn limits_are_told() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(100) })]
+    #![proptest_config(cases(100))]
 
     #[test]
     fn any_curves(points in prop::collection::vec((-0.2..0.2f64, -0.2..0.2f64), 9), grain in -4.0..4.0f64) {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+mod atlas;
 mod awkward;
 mod golden;
 mod outlines;

@@ -1,6 +1,6 @@
 //! Outlines of all kinds become exact cells and well shaped triangles.
 
-use crate::sewing::{circle, garment, panel, polygon, rectangle};
+use crate::sewing::{cases, circle, garment, panel, polygon, rectangle};
 use darzi::garment::panel::{Loop, Panel};
 use darzi::mesh::compiled::Compiled;
 use darzi::mesh::validate::{Facts, validate};
@@ -72,7 +72,7 @@ fn check(panel: Panel) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn rectangles_at_any_grain(w in 0.02..0.4f64, h in 0.02..0.4f64, grain in -1.6..1.6f64) {

@@ -1,6 +1,6 @@
 //! Sewing partners carry equal counts of points, whatever else is sewn to them.
 
-use crate::sewing::{curve, garment, line, panel, polygon, rectangle, seam, whole};
+use crate::sewing::{cases, curve, garment, line, panel, polygon, rectangle, seam, whole};
 use darzi::garment::Garment;
 use darzi::garment::panel::{Loop, Run};
 use darzi::garment::seam::{Attachment, PanelRun, Pin, PinTarget, Pinned};
@@ -173,7 +173,7 @@ fn gore(width: f64, height: f64, belly: f64, lean: f64) -> Loop {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(48) })]
+    #![proptest_config(cases(48))]
 
     /// Gores in a ring, sewn side to side and all to one band: counts agree everywhere.
     #[test]

@@ -7,6 +7,12 @@ use darzi::garment::panel::{Loop, NamedEdge, Panel, Piece, Run};
 use darzi::garment::scene::{Phase, Placement};
 use darzi::garment::seam::{PanelRun, Seam, SeamKind};
 use kurbo::{BezPath, ParamCurveArclen};
+use proptest::test_runner::{Config, RngSeed};
+
+/// So many cases of a property, the same on every run; another seed looks further.
+pub fn cases(count: u32) -> Config {
+    Config { failure_persistence: None, rng_seed: RngSeed::Fixed(20), ..Config::with_cases(count) }
+}
 
 /// A piece of a path.
 pub fn piece(path: BezPath) -> Piece {

@@ -1,0 +1,8 @@
+//! From text to garment: what is read, what is worked out, and what is said of mistakes.
+
+#![allow(clippy::disallowed_methods, clippy::print_stdout)]
+
+mod errors;
+mod garments;
+mod library;
+mod tour;
