@@ -124,6 +124,17 @@ impl Diagnostic {
     }
 }
 
+/// `a, b or c`
+pub fn either(names: &[impl AsRef<str>]) -> String {
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    match names.as_slice() {
+        [many @ .., before, last] if !many.is_empty() => {
+            format!("{}, {before} or {last}", many.join(", "))
+        }
+        few => few.join(" or "),
+    }
+}
+
 /// Puts messages in the order of the text, by the start of their main place; those of `root`
 /// come first, then those of the files it uses in the order in which they were opened. Messages
 /// without a place stand before all others: they speak of the call or of the machine. Messages

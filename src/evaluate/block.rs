@@ -1,12 +1,14 @@
 //! Blocks: declarations hoisted, loops and choices unrolled, copies merged.
 
 use super::Evaluator;
-use super::fields::{Arg, Fields, Phrase, Spoiled, Written, bare};
+use super::fields::{Arg, Fields, Phrase, bare};
 use super::item::{ItemId, declares};
+use super::panel::operation::SHAPES;
+use super::phrase::Written;
 use super::poison::unread;
 use super::scope::{ScopeId, What};
 use super::value::Value;
-use super::words::{self, Kind, vocabulary};
+use super::words::{self, Kind, Word, vocabulary};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Block, Expr, Item, Name, Statement, StatementKind};
 
@@ -26,9 +28,6 @@ pub(super) struct Merged<'t> {
     /// Parameters that the copy sets.
     pub settings: Vec<(&'t Name, &'t Expr)>,
 }
-
-/// The words of which a panel has only one, whatever they are.
-const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring"];
 
 /// The name by which a line of a copy replaces a line of the original.
 fn replaces(statement: &Statement) -> Option<&str> {
@@ -202,11 +201,11 @@ impl<'t> Evaluator<'t> {
     /// items and labels are known in the scope of the whole block.
     fn walk(&mut self, statements: &[&'t Statement], inner: ScopeId, out: &mut Fields<'t>) {
         // First all names, so that they may be declared in any order.
-        let mut matched: Vec<Option<Phrase<'t>>> = Vec::with_capacity(statements.len());
+        let mut matched: Vec<Vec<Phrase<'t>>> = Vec::with_capacity(statements.len());
         for statement in statements {
             matched.push(self.declare_statement(statement, inner, out));
         }
-        for (statement, phrase) in statements.iter().zip(matched) {
+        for (statement, phrases) in statements.iter().zip(matched) {
             match &statement.kind {
                 StatementKind::For { name, over, body } => {
                     let Some(turns) = self.turns_of(over, inner) else {
@@ -249,7 +248,7 @@ impl<'t> Evaluator<'t> {
                         self.walk(&lines, branch, out);
                     }
                 }
-                _ => out.phrases.extend(phrase),
+                _ => out.phrases.extend(phrases),
             }
         }
     }
@@ -272,8 +271,8 @@ impl<'t> Evaluator<'t> {
         if name.span.file != self.root {
             return None;
         }
-        let asked = self.options.iter().find(|asked| asked.name == name.text)?;
-        self.asked_for.insert(asked.name.clone());
+        let asked = self.options.iter().find(|asked| asked.name.text == name.text)?;
+        self.asked_for.insert(asked.name.text.clone());
         Some((&asked.value, block))
     }
 
@@ -310,13 +309,13 @@ impl<'t> Evaluator<'t> {
         statement: &'t Statement,
         inner: ScopeId,
         out: &mut Fields<'t>,
-    ) -> Option<Phrase<'t>> {
+    ) -> Vec<Phrase<'t>> {
         let (kind, outer) = (out.kind, out.scope);
         match &statement.kind {
             StatementKind::Let { name, value } => {
                 let what = self.fitted(outer, &name.text).unwrap_or(What::Let(value));
                 self.declare(inner, &name.text, name.span, inner, what);
-                None
+                Vec::new()
             }
             StatementKind::Param { name, kind: said, default, range } => {
                 let set = self.setting(name, outer);
@@ -329,12 +328,12 @@ impl<'t> Evaluator<'t> {
                 let what = self.fitted(outer, &name.text).unwrap_or(what);
                 let id = self.declare(inner, &name.text, name.span, inner, what);
                 self.parameters.push(id);
-                None
+                Vec::new()
             }
             StatementKind::Function { name, formals, kind: said, value } => {
                 let what = What::Function { formals, kind: said.as_ref(), value };
                 self.declare(inner, &name.text, name.span, inner, what);
-                None
+                Vec::new()
             }
             StatementKind::Use(sources) => {
                 if kind != Kind::File {
@@ -346,55 +345,39 @@ impl<'t> Evaluator<'t> {
                         );
                     }
                 }
-                None
+                Vec::new()
             }
-            StatementKind::For { .. } | StatementKind::If { .. } => None,
+            StatementKind::For { .. } | StatementKind::If { .. } => Vec::new(),
             StatementKind::Property { key, phrase, drawing, block } => {
                 let table = vocabulary(kind);
+                let written = |key, label, items, drawing| Written {
+                    key,
+                    label,
+                    items,
+                    drawing,
+                    block: block.as_ref(),
+                    scope: inner,
+                };
                 if let Some(word) = table.find(&key.text, true) {
-                    let written = Written {
-                        key,
-                        label: None,
-                        items: phrase,
-                        drawing,
-                        block: block.as_ref(),
-                        scope: inner,
-                    };
-                    return self.match_phrase(word, written).or_else(|| out.spoil(word, None));
+                    return self.take(word, written(key, None, phrase, drawing), out);
                 }
                 let action = labelled(phrase).filter(|_| drawing.is_empty());
                 if let Some(name) = action {
                     if let Some(word) = table.find(&name.text, false) {
                         let items = phrase.get(1..).unwrap_or(&[]);
-                        let written = Written {
-                            key: name,
-                            label: Some(key),
-                            items,
-                            drawing: &[],
-                            block: block.as_ref(),
-                            scope: inner,
-                        };
-                        let matched = self.match_phrase(word, written);
+                        let found = self.take(word, written(name, Some(key), items, &[]), out);
                         // Labels of edges, and of round holes, are names of edges.
-                        let round = matched.as_ref().is_some_and(|phrase| {
+                        let round = found.first().is_some_and(|phrase| {
                             phrase.word.name == "hole" && phrase.block.is_none()
                         });
                         if kind != Kind::Outline && !round {
                             self.declare(outer, &key.text, key.span, inner, What::Label);
                         }
-                        return matched.or_else(|| out.spoil(word, Some(key)));
+                        return found;
                     }
                 }
                 if let Some(word) = table.rows {
-                    let written = Written {
-                        key,
-                        label: None,
-                        items: phrase,
-                        drawing,
-                        block: block.as_ref(),
-                        scope: inner,
-                    };
-                    return self.match_phrase(word, written).or_else(|| out.spoil(word, None));
+                    return self.take(word, written(key, None, phrase, drawing), out);
                 }
                 let action = action.filter(|_| phrase.len() > 1);
                 let word = if unread(phrase) {
@@ -402,15 +385,15 @@ impl<'t> Evaluator<'t> {
                 } else {
                     self.tell_unknown_property(kind, key, action)
                 };
-                out.spoiled.push(Spoiled { word, label: Some(key) });
-                None
+                self.poison_line(word, Some(key), phrase, out);
+                Vec::new()
             }
             StatementKind::Line { word: name, phrase, block } => {
                 let Some(word) = vocabulary(kind).find(&name.text, false) else {
                     let word =
                         if unread(phrase) { None } else { self.tell_unknown_line(kind, name) };
-                    self.poison_line(word, phrase, out);
-                    return None;
+                    self.poison_line(word, None, phrase, out);
+                    return Vec::new();
                 };
                 let written = Written {
                     key: name,
@@ -420,22 +403,40 @@ impl<'t> Evaluator<'t> {
                     block: block.as_ref(),
                     scope: inner,
                 };
-                let mut matched = self.match_phrase(word, written);
-                if let (Some(found), true) = (&matched, word.name == "fit") {
-                    if let Some(name) = found.head.first().and_then(|expr| bare(expr)) {
-                        let what = self.fitted(outer, &name.text);
-                        let what = what.unwrap_or(What::Given(Value::Poison));
-                        self.declare(inner, &name.text, name.span, inner, what);
-                    }
-                }
-                if let (Some(item_kind), true) = (word.block, declares(word.form)) {
-                    matched = matched.and_then(|found| self.declare_item(outer, item_kind, found));
-                }
-                if matched.is_none() {
-                    self.poison_line(Some(word), phrase, out);
-                }
-                matched
+                self.take(word, written, out)
             }
         }
+    }
+
+    /// Matches a line, and those that follow it on the same line of the text.
+    fn take(
+        &mut self,
+        word: &'static Word,
+        written: Written<'t>,
+        out: &mut Fields<'t>,
+    ) -> Vec<Phrase<'t>> {
+        let mut found = Vec::new();
+        let mut next = Some((word, written));
+        while let Some((word, written)) = next {
+            let (label, items, inner) = (written.label, written.items, written.scope);
+            let matched = self.match_phrase(out.kind, word, written);
+            let mut phrase = matched.phrase;
+            if let (Some(phrase), true) = (&phrase, word.name == "fit") {
+                if let Some(name) = phrase.head.first().and_then(|expr| bare(expr)) {
+                    let what = self.fitted(out.scope, &name.text);
+                    let what = what.unwrap_or(What::Given(Value::Poison));
+                    self.declare(inner, &name.text, name.span, inner, what);
+                }
+            }
+            if let (Some(kind), true) = (word.block, declares(word.form)) {
+                phrase = phrase.and_then(|phrase| self.declare_item(out.scope, kind, phrase));
+            }
+            if phrase.is_none() {
+                self.poison_line(Some(word), label, items, out);
+            }
+            found.extend(phrase);
+            next = matched.next;
+        }
+        found
     }
 }

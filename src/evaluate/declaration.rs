@@ -101,7 +101,8 @@ impl<'t> Evaluator<'t> {
             (Some((expr, at)), _) => (expr, at),
             (None, Some(expr)) => (expr, scope),
             (None, None) => {
-                let wanted = kind.map_or("a value", |kind| kind.text.as_str());
+                let wanted =
+                    kind.map_or("a value".to_owned(), |kind| super::read::kind_title(&kind.text));
                 self.tell(
                     Diagnostic::new("E0208", format!("`{name}` must be given"))
                         .at(span, format!("{wanted} is wanted"))
@@ -113,10 +114,19 @@ impl<'t> Evaluator<'t> {
         if let Some(options) = options {
             return self.option(expr, &options, &name, range.map_or(span, |range| range.span));
         }
-        let value = self.of_kind(Arg { expr, scope: at, of: "param" }, kind);
+        let of = self.snippet(span);
+        let value = self.of_kind(Arg { expr, scope: at, of }, kind);
         let Some(range) = range else { return value };
         let allowed = self.eval(range, scope);
         let (low, high) = match allowed {
+            Value::Range(low, high) if low.value > high.value => {
+                self.tell(
+                    Diagnostic::new("E0303", format!("the range of `{name}` goes downwards"))
+                        .at(range.span, format!("from {low} to {high}"))
+                        .help("the lower end stands first: `0cm..8cm`"),
+                );
+                return value;
+            }
             Value::Range(low, high) => (low, high),
             Value::List(values) => {
                 if value == Value::Poison || values.contains(&value) {
@@ -151,7 +161,8 @@ impl<'t> Evaluator<'t> {
         // A hair of slack, so that a limit said in another unit still counts as reached.
         let slack = 1e-9 * (low.value.abs() + high.value.abs());
         if quantity.value < low.value - slack || quantity.value > high.value + slack {
-            let from_outside = set.is_some() && expr.span == Span::new(self.root, 0, 0);
+            let from_outside =
+                self.options.iter().any(|asked| asked.value.span.file == expr.span.file);
             let here = if from_outside { span } else { expr.span };
             self.tell(
                 Diagnostic::new(
@@ -219,13 +230,11 @@ impl<'t> Evaluator<'t> {
         names.sort();
         names.dedup();
         for asked in self.options {
-            if !self.asked_for.contains(&asked.name) {
-                let label = self.meant(&asked.name, names.iter().map(String::as_str));
-                let mut told = Diagnostic::new(
-                    "E0204",
-                    format!("this file has no parameter `{}`", asked.name),
-                )
-                .at(Span::new(self.root, 0, 0), label);
+            let Name { text, span } = &asked.name;
+            if !self.asked_for.contains(text) {
+                let label = self.meant(text, names.iter().map(String::as_str));
+                let message = format!("this file has no parameter `{text}`");
+                let mut told = Diagnostic::new("E0204", message).at(*span, label);
                 if !names.is_empty() {
                     told = told.help(format!("it has {}", names.join(", ")));
                 }

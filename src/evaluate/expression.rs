@@ -5,10 +5,13 @@ use super::fields::{Arg, bare};
 use super::scope::{ScopeId, What};
 use super::value::{Value, Vector};
 use super::words::Kind;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, either, spelling};
 use crate::syntax::tree::{Expr, ExprKind, Name, UnaryOp};
 use crate::textile::Colour;
 use crate::units::{self, Dimension, Quantity};
+
+/// Names of the library that a message lists at most.
+const LISTED: usize = 32;
 
 impl<'t> Evaluator<'t> {
     /// What an expression is worth. What is wrong in it is told; its value is then
@@ -36,22 +39,55 @@ impl<'t> Evaluator<'t> {
                 return self.binding_value(id, name.span);
             }
         }
-        let mut known = self.visible(arg.scope);
+        // A thing of another kind is told better by who wanted it: `silk` is a fabric.
+        let elsewhere = self
+            .libraries
+            .values()
+            .find_map(|scope| self.scopes.get(scope.0)?.names.get(&name.text).copied());
+        if let Some(id) = elsewhere {
+            return self.binding_value(id, name.span);
+        }
+        let mut own: Vec<String> = Vec::new();
         for library in libraries {
             if let Some(scope) = self.libraries.get(*library).and_then(|id| self.scopes.get(id.0)) {
-                known.extend(scope.names.keys().cloned());
+                own.extend(scope.names.keys().cloned());
             }
         }
-        self.tell_unknown(name, &known);
+        let list = own.join(", ");
+        let mut known = self.visible(arg.scope);
+        let listed = !own.is_empty() && own.len() <= LISTED;
+        known.append(&mut own);
+        let near = spelling::nearest(&name.text, known.iter().map(String::as_str));
+        let help = (listed && near.is_none()).then(|| format!("the library has {list}"));
+        self.tell_unknown(name, &known, help);
         Value::Poison
     }
 
-    fn tell_unknown(&mut self, name: &Name, known: &[String]) {
+    fn tell_unknown(&mut self, name: &Name, known: &[String], help: Option<String>) {
+        let near = spelling::nearest(&name.text, known.iter().map(String::as_str));
+        if self.blind && near.is_none() {
+            return;
+        }
         let label = self.meant(&name.text, known.iter().map(String::as_str));
-        self.tell(
-            Diagnostic::new("E0201", format!("nothing here is called `{}`", name.text))
-                .at(name.span, label),
-        );
+        let message = format!("nothing here is called `{}`", name.text);
+        let mut told = Diagnostic::new("E0201", message).at(name.span, label);
+        told.help = help;
+        self.tell(told);
+    }
+
+    /// Whether a value is a name that nobody declared, where besides values some words are
+    /// allowed, which is told.
+    pub(super) fn unknown_word(&mut self, arg: Arg<'t>, words: &[&str]) -> bool {
+        let Some(name) = bare(arg.expr) else { return false };
+        if self.find(arg.scope, &name.text).is_some() {
+            return false;
+        }
+        let mut known: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+        known.extend(self.visible(arg.scope));
+        let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        let help = format!("besides values `{}` takes {}", arg.of, either(&words));
+        self.tell_unknown(name, &known, Some(help));
+        true
     }
 
     fn eval_kind(&mut self, expr: &'t Expr, scope: ScopeId) -> Value {
@@ -198,7 +234,7 @@ impl<'t> Evaluator<'t> {
                 Some(id) => self.binding_value(id, name.span),
                 None => {
                     let known = self.visible(scope);
-                    self.tell_unknown(name, &known);
+                    self.tell_unknown(name, &known, None);
                     Value::Poison
                 }
             },

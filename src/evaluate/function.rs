@@ -150,10 +150,19 @@ impl<'t> Evaluator<'t> {
             self.declare(inner, &formal.name.text, formal.name.span, inner, What::Given(value));
         }
         if let Some((extra, _)) = given.iter().find(|(_, used)| !used) {
-            self.tell(
-                Diagnostic::new("E0306", format!("`{}` takes {} values", name.text, formals.len()))
-                    .at(extra.value.span, "one too many"),
-            );
+            let known = formals.iter().map(|formal| formal.name.text.as_str());
+            let told = match &extra.name {
+                Some(unknown) => {
+                    let label = self.meant(&unknown.text, known);
+                    let message = format!("`{}` takes no `{}`", name.text, unknown.text);
+                    Diagnostic::new("E0204", message).at(unknown.span, label)
+                }
+                None => {
+                    let message = format!("`{}` takes {} values", name.text, formals.len());
+                    Diagnostic::new("E0306", message).at(extra.value.span, "one too many")
+                }
+            };
+            self.tell(told);
             sound = false;
         }
         if !sound {
@@ -176,9 +185,11 @@ impl<'t> Evaluator<'t> {
             let mut known: Vec<String> = self.visible(scope);
             known.extend(OWN.iter().map(|(own, _)| (*own).to_owned()));
             let label = self.meant(&name.text, known.iter().map(String::as_str));
+            let own: Vec<&str> = OWN.iter().map(|(own, _)| *own).collect();
             self.tell(
                 Diagnostic::new("E0201", format!("there is no function `{}`", name.text))
-                    .at(name.span, label),
+                    .at(name.span, label)
+                    .help(format!("the language has {}", own.join(", "))),
             );
             return Value::Poison;
         };

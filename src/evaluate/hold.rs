@@ -7,6 +7,7 @@ use super::panel::edge::Mark;
 use super::value::Value;
 use crate::diagnostic::Diagnostic;
 use crate::garment::seam::{Attachment, PanelRun, Pin, PinTarget, Pinned};
+use crate::syntax::tree::{BinaryOp, ExprKind};
 use crate::units;
 
 impl<'t> Evaluator<'t> {
@@ -112,10 +113,7 @@ impl<'t> Evaluator<'t> {
             let Some(left) = phrase.arg(0) else { continue };
             let Some(right) = phrase.value("=") else {
                 if self.condition(left) == Some(false) {
-                    self.tell(
-                        Diagnostic::new("E0806", "check failed")
-                            .at(left.expr.span, "this does not hold"),
-                    );
+                    self.tell_failed(left);
                 }
                 continue;
             };
@@ -154,5 +152,23 @@ impl<'t> Evaluator<'t> {
                 );
             }
         }
+    }
+
+    /// Tells a condition that does not hold, with what its two sides are worth.
+    fn tell_failed(&mut self, check: Arg<'t>) {
+        let mut told = Diagnostic::new("E0806", "check failed");
+        if let ExprKind::Binary { op, left, right, .. } = &check.expr.kind
+            && !matches!(op, BinaryOp::And | BinaryOp::Or)
+        {
+            for side in [left, right] {
+                if let Some(worth) = self.any_quantity(Arg { expr: side, ..check }) {
+                    told = told.at(side.span, worth.to_string());
+                }
+            }
+        }
+        if told.labels.is_empty() {
+            told = told.at(check.expr.span, "this does not hold");
+        }
+        self.tell(told);
     }
 }

@@ -6,7 +6,7 @@ use super::scope::{ScopeId, Waiting};
 use super::value::Value;
 use super::words::{Form, Kind};
 use super::{Evaluator, figure, textile};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, either};
 use crate::garment::sari::Sari;
 use crate::garment::scene::BodyRequest;
 use crate::syntax::tree::{Expr, ExprKind};
@@ -143,7 +143,7 @@ impl<'t> Evaluator<'t> {
                 let text = self.snippet(arg.expr.span).to_owned();
                 self.tell(
                     Diagnostic::new("E0304", format!("`{text}` is {found}"))
-                        .at(arg.expr.span, format!("{} is wanted", wanted.join(" or "))),
+                        .at(arg.expr.span, format!("{} is wanted", either(&wanted))),
                 );
                 None
             }

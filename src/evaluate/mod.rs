@@ -19,6 +19,7 @@ pub mod item;
 mod module;
 mod operator;
 pub mod panel;
+mod phrase;
 mod place;
 mod poison;
 mod read;
@@ -57,6 +58,9 @@ const STEPS: u64 = 10_000_000;
 /// behind, so that the limit of steps also bounds memory.
 const CALL: u64 = 100;
 const OPENING: u64 = 300;
+
+/// Messages of one code at one place.
+const ALIKE: usize = 10;
 
 /// How deep values may hang on each other.
 const DEPTH: usize = 3_000;
@@ -128,10 +132,14 @@ pub struct Evaluator<'t> {
     /// Bodies of the functions being called.
     calling: Vec<&'t Expr>,
     told: Vec<Diagnostic>,
+    /// Numbers of what was told, by main place and code.
+    told_at: BTreeMap<(Option<Span>, String), Vec<usize>>,
     depth: usize,
     steps: u64,
     turns: usize,
     exhausted: bool,
+    /// Whether a file could not be used that would have brought names nobody knows.
+    blind: bool,
 }
 
 impl<'t> Evaluator<'t> {
@@ -155,16 +163,22 @@ impl<'t> Evaluator<'t> {
             waiting: Vec::new(),
             calling: Vec::new(),
             told: Vec::new(),
+            told_at: BTreeMap::new(),
             depth: 0,
             steps: 0,
             turns: 0,
             exhausted: false,
+            blind: false,
         }
     }
 
-    /// Says something about the text, once.
+    /// Says something about the text, once. What a loop does wrong at one place in each of its
+    /// turns is said a few times only.
     pub fn tell(&mut self, diagnostic: Diagnostic) {
-        if !self.told.contains(&diagnostic) {
+        let place = diagnostic.labels.first().map(|label| label.span);
+        let same = self.told_at.entry((place, diagnostic.code.clone())).or_default();
+        if same.len() < ALIKE && same.iter().all(|&number| self.told[number] != diagnostic) {
+            same.push(self.told.len());
             self.told.push(diagnostic);
         }
     }

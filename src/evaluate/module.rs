@@ -43,7 +43,7 @@ pub(super) struct Loaded {
 /// A parameter set from outside.
 #[derive(Debug)]
 pub(super) struct Asked {
-    pub name: String,
+    pub name: Name,
     pub value: Expr,
 }
 
@@ -96,10 +96,15 @@ pub(super) fn load(
         let mut uses = Vec::new();
         for source in sources(&tree) {
             let Some(wanted) = path_of(source, &path) else {
+                let said = match &source.from {
+                    SourcePath::Path(names) => names.first().map_or("", |name| &name.text),
+                    SourcePath::File(name) => &name.text,
+                };
+                let path = said.strip_suffix(".garment").unwrap_or(said);
                 told.push(
                     Diagnostic::new("E0901", "only the library is used without quotation marks")
                         .at(source.span, "not found")
-                        .help("a file is used by its path: `use \"parts/collar.garment\"`"),
+                        .help(format!("a file is used by its path: `use \"{path}.garment\"`")),
                 );
                 uses.push(None);
                 continue;
@@ -117,10 +122,7 @@ pub(super) fn load(
                     uses.push(None);
                 }
                 Err(reason) => {
-                    told.push(
-                        Diagnostic::new("E0903", format!("cannot read `{wanted}`: {reason}"))
-                            .at(source.span, "here"),
-                    );
+                    told.push(Diagnostic::new("E0903", reason).at(source.span, "here"));
                     uses.push(None);
                 }
             }
@@ -128,52 +130,44 @@ pub(super) fn load(
         files.push(Loaded { id, path, text, tree, uses });
     }
     tell_rings(&files, &mut told);
-    let asked = set.iter().filter_map(|pair| ask(root, pair, &mut told)).collect();
+    let asked = set.iter().filter_map(|pair| ask(world, pair, &mut files, &mut told)).collect();
     (files, asked, told)
 }
 
-/// Reads the value of `--set name=value`.
+/// Reads `--set name=value` as a text of its own, so that its mistakes have their places.
 fn ask(
-    root: FileId,
+    world: &mut dyn World,
     (name, value): &(String, String),
+    files: &mut Vec<Loaded>,
     told: &mut Vec<Diagnostic>,
 ) -> Option<Asked> {
-    let (tree, mistakes) = parse(root, &format!("let value = {value}"));
-    let start = Span::new(root, 0, 0);
-    match tree.statements.into_iter().next().map(|statement| statement.kind) {
-        Some(StatementKind::Let { mut value, .. }) if mistakes.is_empty() => {
-            flatten_spans(&mut value, start);
-            Some(Asked { name: name.clone(), value })
+    let text = format!("let {name} = {value}");
+    let id = world.take_in("--set", &text);
+    let (tree, mistakes) = parse(id, &text);
+    let asked = match tree.statements.as_slice() {
+        [Statement { kind: StatementKind::Let { name, value }, .. }] if mistakes.is_empty() => {
+            Some(Asked { name: name.clone(), value: value.clone() })
         }
         _ => {
-            told.push(
-                Diagnostic::new("E0212", format!("`{name}` cannot be set to `{value}`"))
-                    .at(start, "set from outside")
-                    .help(format!("such as `{name}=3cm`")),
-            );
+            if mistakes.is_empty() {
+                told.push(
+                    Diagnostic::new("E0212", format!("`{name}` cannot be set to this"))
+                        .at(Span::new(id, 0, text.len()), "one value is wanted")
+                        .help(format!("such as `{name}=3cm`")),
+                );
+            }
             None
         }
-    }
-}
-
-/// Values set from outside stand in no file; their messages point to its beginning.
-fn flatten_spans(expr: &mut Expr, to: Span) {
-    use crate::syntax::tree::ExprKind;
-    expr.span = to;
-    match &mut expr.kind {
-        ExprKind::Group(inner) | ExprKind::Unary(_, inner) | ExprKind::Member(inner, _) => {
-            flatten_spans(inner, to);
-        }
-        ExprKind::Point(parts) | ExprKind::List(parts) => {
-            parts.iter_mut().for_each(|part| flatten_spans(part, to));
-        }
-        ExprKind::Binary { left, right, op_span, .. } => {
-            *op_span = to;
-            flatten_spans(left, to);
-            flatten_spans(right, to);
-        }
-        _ => {}
-    }
+    };
+    told.extend(mistakes);
+    files.push(Loaded {
+        id,
+        path: "--set".to_owned(),
+        text,
+        tree: File::default(),
+        uses: Vec::new(),
+    });
+    asked
 }
 
 /// Files that use each other are told (E0902), each ring once.
@@ -235,7 +229,10 @@ impl<'t> Evaluator<'t> {
             let Some(&scope) = scopes.get(&file.id) else { continue };
             let used = sources(&file.tree).zip(&file.uses);
             for (source, target) in used {
-                let Some(target) = target else { continue };
+                let Some(target) = target else {
+                    self.lost(source, scope);
+                    continue;
+                };
                 let Some((&inner, other)) =
                     scopes.get(target).zip(files.iter().find(|file| file.id == *target))
                 else {
@@ -264,6 +261,17 @@ impl<'t> Evaluator<'t> {
             };
             (scope, fields)
         })
+    }
+
+    /// Names that a file which cannot be used would have brought are not told to be unknown.
+    fn lost(&mut self, source: &'t Source, into: ScopeId) {
+        match (&source.alias, &source.from) {
+            (Some(alias), _) => self.poison_name(Some(alias), into),
+            (None, SourcePath::Path(path)) => self.poison_name(path.get(2), into),
+            (None, SourcePath::File(_)) => {}
+        }
+        source.names.iter().for_each(|name| self.poison_name(Some(name), into));
+        self.blind |= source.names.is_empty() && source.alias.is_none();
     }
 
     /// Makes names of another file known.
@@ -300,6 +308,7 @@ impl<'t> Evaluator<'t> {
                     Diagnostic::new("E0901", format!("`{}` has no `{}`", other.path, name.text))
                         .at(name.span, label),
                 );
+                self.poison_name(Some(name), into);
             }
         }
         if let (Some(alias), false) = (&source.alias, single) {

@@ -180,6 +180,15 @@ impl<'t> Evaluator<'t> {
                 );
                 None
             }
+            Value::Item(id) if self.item(id).kind == Kind::Wearer => {
+                let name = self.item(id).name.clone();
+                self.tell(
+                    Diagnostic::new("E0304", format!("`{name}` is a wearer"))
+                        .at(arg.expr.span, "a place on a body is wanted")
+                        .help(format!("such as `{name}.waist`")),
+                );
+                None
+            }
             other => {
                 self.wrong(&other, "a place on a body", arg.expr.span);
                 None
@@ -244,18 +253,24 @@ impl<'t> Evaluator<'t> {
         phrase: &Phrase<'t>,
         body_number: &dyn Fn(ItemId) -> Option<usize>,
     ) -> Option<Vec<((ItemId, usize), Placement)>> {
-        let pieces = self.placed_pieces(phrase.arg(0)?)?;
+        // All values are looked at, so that one run tells of all.
+        let pieces = phrase.arg(0).and_then(|arg| self.placed_pieces(arg));
         let gap = match phrase.value("gap") {
-            Some(arg) => self.within_range(arg, Dimension::LENGTH, 0.0, 2.0)?,
-            None => GAP,
+            Some(arg) => self.within_range(arg, Dimension::LENGTH, 0.0, 2.0),
+            None => Some(GAP),
         };
         let turn = match phrase.value("turn") {
-            Some(arg) => Some((self.turns_in_space(arg)?, arg.expr.span)),
-            None => None,
+            Some(arg) => self.turns_in_space(arg).map(|turn| Some((turn, arg.expr.span))),
+            None => Some(None),
+        };
+        let level = match phrase.value("level") {
+            Some(arg) => self.landmark(arg).map(Some),
+            None => Some(None),
         };
         let mut out = Vec::new();
         if let Some(at) = phrase.value("at") {
-            let at = self.place_in_space(at)?;
+            let at = self.place_in_space(at);
+            let (pieces, at, turn) = (pieces?, at?, turn?);
             for (id, numbers, _) in pieces {
                 let turn = turn.map_or([0.0; 3], |(turn, _)| turn);
                 for number in numbers {
@@ -264,7 +279,7 @@ impl<'t> Evaluator<'t> {
             }
             return Some(out);
         }
-        if let Some((_, span)) = turn {
+        if let Some(Some((_, span))) = turn {
             self.tell(
                 Diagnostic::new("E0207", "`turn` goes with `at`")
                     .at(span, "here the body gives the direction"),
@@ -279,11 +294,8 @@ impl<'t> Evaluator<'t> {
         ];
         let (arg, side) =
             sides.into_iter().find_map(|(word, side)| phrase.value(word).map(|arg| (arg, side)))?;
-        let mark = self.landmark(arg)?;
-        let level = match phrase.value("level") {
-            Some(arg) => Some(self.landmark(arg)?),
-            None => None,
-        };
+        let mark = self.landmark(arg);
+        let (pieces, gap, level, mark) = (pieces?, gap?, level?, mark?);
         let Some(body) = body_number(mark.wearer) else {
             self.tell(
                 Diagnostic::new("E0304", "this wearer stands in another garment")

@@ -4,12 +4,12 @@
 //! and its names are poisoned, so that nobody complains on top of it that something is missing.
 
 use super::Evaluator;
-use super::fields::{Fields, Phrase, Spoiled};
+use super::fields::{Fields, Spoiled};
 use super::item::{declares, root};
 use super::scope::{ScopeId, What};
 use super::value::Value;
 use super::words::{self, Kind, Word, vocabulary};
-use crate::diagnostic::{Diagnostic, spelling};
+use crate::diagnostic::{Diagnostic, either, spelling};
 use crate::syntax::tree::{Block, Expr, ExprKind, Item, Name, Statement, StatementKind};
 
 /// Whether part of a phrase could not be read, which the reader has told already.
@@ -17,27 +17,16 @@ pub(super) fn unread(phrase: &[Item]) -> bool {
     phrase.iter().any(|item| matches!(item, Item::Expr(Expr { kind: ExprKind::Unread, .. })))
 }
 
-impl<'t> Fields<'t> {
-    /// Notes that a line of this word cannot be used.
-    pub(super) fn spoil(
-        &mut self,
-        word: &'static Word,
-        label: Option<&'t Name>,
-    ) -> Option<Phrase<'t>> {
-        self.spoiled.push(Spoiled { word: Some(word), label });
-        None
-    }
-}
-
 impl<'t> Evaluator<'t> {
     /// Notes a line that cannot be used and poisons the name that it would have declared.
     pub(super) fn poison_line(
         &mut self,
         word: Option<&'static Word>,
+        label: Option<&'t Name>,
         phrase: &'t [Item],
         out: &mut Fields<'t>,
     ) {
-        out.spoiled.push(Spoiled { word, label: None });
+        out.spoiled.push(Spoiled { word, label });
         let names = word.is_some_and(|word| declares(word.form) || word.name == "fit");
         if let (true, Some(Item::Expr(first))) = (names, phrase.first()) {
             self.poison_name(root(first), out.scope);
@@ -63,7 +52,7 @@ impl<'t> Evaluator<'t> {
                     self.poison(otherwise.as_ref().map_or(&[], inside), out);
                 }
                 StatementKind::Line { word, phrase, .. } => {
-                    self.poison_line(table.find(&word.text, false), phrase, out);
+                    self.poison_line(table.find(&word.text, false), None, phrase, out);
                 }
                 StatementKind::Property { key, phrase, .. } => {
                     let action = match phrase.first() {
@@ -122,7 +111,7 @@ impl<'t> Evaluator<'t> {
         }
         self.tell(
             Diagnostic::new("E0202", format!("{} has no `{}`", kind.title(), name.text))
-                .at(name.span, format!("it belongs into {}", elsewhere.join(" or ")))
+                .at(name.span, format!("it belongs into {}", either(&elsewhere)))
                 .help(word_list(table.words)),
         );
         None

@@ -264,18 +264,23 @@ impl<'t> Evaluator<'t> {
                         | ("colour" | "color", Value::Colour(_))
                         | ("edge", Value::Edges(_))
                 );
-                if fits { value } else { self.wrong(&value, kind_title(&kind.text), arg.expr.span) }
+                if fits {
+                    value
+                } else {
+                    self.wrong(&value, &kind_title(&kind.text), arg.expr.span)
+                }
             }
         }
     }
 }
 
-fn kind_title(kind: &str) -> &'static str {
-    match kind {
-        "point" => "a point",
-        "bool" => "a yes or no",
-        "text" => "a text",
-        "edge" => "an edge",
-        _ => "a colour",
+/// A kind with its article, for messages: `a length`.
+pub(super) fn kind_title(kind: &str) -> String {
+    let dimension = KINDS.iter().find(|(name, _)| *name == kind).and_then(|(_, found)| *found);
+    match (dimension, kind) {
+        (Some(dimension), _) => dimension.name().to_owned(),
+        (None, "bool") => "a yes or no".to_owned(),
+        (None, "edge") => "an edge".to_owned(),
+        (None, kind) => format!("a {kind}"),
     }
 }

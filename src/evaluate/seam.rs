@@ -19,6 +19,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::panel::Run;
 use crate::garment::seam::{PanelRun, Seam, SeamKind};
 use crate::units::{self, Dimension};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Lengths may differ by so much, m, or by this share of the longer one.
 const TOLERANCE: (f64, f64) = (1e-3, 2e-3);
@@ -438,49 +439,53 @@ impl<'t> Evaluator<'t> {
         None
     }
 
-    /// Places of edges that two seams take (E0503).
+    /// Places of edges that two seams take (E0503), told once for each two seams.
     fn sewn_twice(&mut self, sewn: &[(PanelRun, Span)], making: &Making) {
-        let range = |run: &Run| (run.from.min(run.to), run.from.max(run.to));
-        for (i, (one, at)) in sewn.iter().enumerate() {
-            for (other, before) in sewn.iter().take(i) {
-                if one.panel != other.panel
-                    || one.run.ring != other.run.ring
-                    || one.run.piece != other.run.piece
+        // The runs along each piece, by where they begin.
+        let mut along: BTreeMap<(usize, usize, usize), Vec<(f64, f64, Span)>> = BTreeMap::new();
+        for (PanelRun { panel, run }, at) in sewn {
+            let (from, to) = (run.from.min(run.to), run.from.max(run.to));
+            along.entry((*panel, run.ring, run.piece)).or_default().push((from, to, *at));
+        }
+        let mut told: BTreeSet<[Span; 2]> = BTreeSet::new();
+        for ((panel, ring, piece), runs) in &mut along {
+            runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut longest: Option<(f64, Span)> = None;
+            for &(from, to, at) in runs.iter() {
+                if let Some((end, before)) = longest
+                    && end.min(to) - from >= 1e-5
+                    && told.insert([at.min(before), at.max(before)])
                 {
-                    continue;
+                    let on = (*panel, *ring, *piece);
+                    self.tell_sewn_twice(on, end.min(to) - from, [at, before], making);
                 }
-                let (a, b) = (range(&one.run), range(&other.run));
-                let both = (a.0.max(b.0), a.1.min(b.1));
-                if both.1 - both.0 < 1e-5 {
-                    continue;
+                if longest.is_none_or(|(end, _)| to > end) {
+                    longest = Some((to, at));
                 }
-                let name = making.garment.panels.get(one.panel).map_or("", |panel| {
-                    panel
-                        .edges
-                        .iter()
-                        .find(|edge| {
-                            edge.runs
-                                .iter()
-                                .any(|run| run.ring == one.run.ring && run.piece == one.run.piece)
-                        })
-                        .map_or(panel.name.as_str(), |edge| edge.name.as_str())
-                });
-                let panel =
-                    making.garment.panels.get(one.panel).map_or("", |panel| panel.name.as_str());
-                self.tell(
-                    Diagnostic::new(
-                        "E0503",
-                        format!(
-                            "`{panel}.{name}` is sewn twice, along {}",
-                            units::length(both.1 - both.0)
-                        ),
-                    )
-                    .at(*at, "here")
-                    .at(*before, "and here")
-                    .help("sew a part of the edge: `side[0cm..20cm]`"),
-                );
-                return;
             }
         }
+    }
+
+    fn tell_sewn_twice(
+        &mut self,
+        (panel, ring, piece): (usize, usize, usize),
+        length: f64,
+        at: [Span; 2],
+        making: &Making,
+    ) {
+        let Some(panel) = making.garment.panels.get(panel) else { return };
+        let edge = panel
+            .edges
+            .iter()
+            .find(|edge| edge.runs.iter().any(|run| run.ring == ring && run.piece == piece))
+            .map_or("", |edge| edge.name.as_str());
+        let message =
+            format!("`{}.{edge}` is sewn twice, along {}", panel.name, units::length(length));
+        self.tell(
+            Diagnostic::new("E0503", message)
+                .at(at[0].max(at[1]), "here")
+                .at(at[0].min(at[1]), "and here")
+                .help("sew a part of the edge: `side[0cm..20cm]`"),
+        );
     }
 }

@@ -189,8 +189,11 @@ impl Reader<'_> {
                 } else {
                     let value = self.tall(inner);
                     height = height.max(value.height);
-                    if let (Some(before), None) = (arguments.last(), &name) {
-                        self.decimal_comma(&before.value, &value.expr, false);
+                    if let (Some(before), None) = (arguments.last_mut(), &name)
+                        && let Some(mended) = self.decimal_comma(&before.value, &value.expr, false)
+                    {
+                        before.value = mended;
+                        continue;
                     }
                     arguments.push(Argument { name: name.take(), value: value.expr });
                 }
@@ -264,8 +267,11 @@ impl Reader<'_> {
         for inner in part.into_inner().filter(|inner| inner.as_rule() == Rule::expr) {
             let value = self.tall(inner);
             height = height.max(value.height);
-            if let Some(before) = values.last() {
-                self.decimal_comma(before, &value.expr, false);
+            if let Some(before) = values.last_mut()
+                && let Some(mended) = self.decimal_comma(before, &value.expr, false)
+            {
+                *before = mended;
+                continue;
             }
             values.push(value.expr);
         }

@@ -5,7 +5,7 @@ use super::lookalike;
 use super::mistake;
 use super::reader::Reader;
 use super::tree::{ExprKind, Name};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use unicode_normalization::UnicodeNormalization;
 
 impl Reader<'_> {
@@ -63,6 +63,14 @@ impl Reader<'_> {
                 _ => value = decimal(inner.as_str()),
             }
         }
+        if let Some(sign) = unit.as_ref().and_then(stuck_sign) {
+            self.tell(
+                Diagnostic::new("E0105", "`x` between two sizes stands between blanks")
+                    .at(sign, "write ` x `")
+                    .help("such as `20cm x 30cm`"),
+            );
+            return ExprKind::Unread;
+        }
         if value.is_finite() {
             return ExprKind::Number { value, unit };
         }
@@ -88,6 +96,16 @@ impl Reader<'_> {
         }
         text
     }
+}
+
+/// The `x` of `20cmx30cm` or `128x128`, which was read as part of a unit.
+fn stuck_sign(unit: &Name) -> Option<Span> {
+    let at = unit.text.find('x')?;
+    let (before, after) = (unit.text.get(..at)?, unit.text.get(at + 1..)?);
+    let sizes = after.starts_with(|c: char| c.is_ascii_digit())
+        && (before.is_empty() || mistake::is_unit(before));
+    let start = unit.span.start + u32::try_from(at).ok()?;
+    sizes.then_some(Span { start, end: start + 1, ..unit.span })
 }
 
 /// The value of digits as the grammar lets them through; NaN or infinite where it has none.

@@ -49,10 +49,18 @@ pub(super) fn apart(text: &str, before: Span, word: &Name) -> Option<Diagnostic>
         });
     }
     let blank = gap.bytes().all(|byte| matches!(byte, b' ' | b'\t'));
-    (blank && is_unit(&word.text)).then(|| {
+    (blank && (is_unit(&word.text) || word.text == "%")).then(|| {
         Diagnostic::new("E0102", "a unit is written against its number")
             .at(whole, format!("write `{number}{}`", word.text))
     })
+}
+
+/// What to say of a number written with a comma.
+pub(super) fn decimal_comma(reader: &Reader, at: Span) -> Diagnostic {
+    let written = reader.slice(at.start as usize, at.end as usize);
+    Diagnostic::new("E0109", "a decimal point is a point, not a comma")
+        .at(at, format!("write `{}`", written.replace(',', ".")))
+        .help("two numbers in a row are written with a blank after the comma")
 }
 
 /// What to say of a reserved word where a name is wanted.
@@ -121,6 +129,8 @@ pub(super) fn explain(reader: &mut Reader, from: usize, junk: Span) -> Diagnosti
         .or_else(|| site.string())
         .or_else(|| site.colour())
         .or_else(|| site.unit_apart())
+        .or_else(|| site.decimal_comma())
+        .or_else(|| site.value_sign())
         .or_else(|| site.operator())
         .or_else(|| site.chart())
         .or_else(|| site.reserved())
@@ -233,11 +243,45 @@ impl<'t> Site<'_, 't> {
         })
     }
 
+    /// `1,5cm` where one value is wanted.
+    fn decimal_comma(&self) -> Option<Diagnostic> {
+        let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+        let after = self.rest.strip_prefix(',').filter(|after| digits(after) > 0)?;
+        let before = self.before();
+        let number = before.trim_end_matches(|c: char| c.is_ascii_digit());
+        if number.len() == before.len() {
+            return None;
+        }
+        let unit = after.get(digits(after)..)?;
+        let unit = unit.find(|c: char| !(c.is_alphanumeric() || c == '%')).unwrap_or(unit.len());
+        let end = self.at + 1 + digits(after) + unit;
+        Some(decimal_comma(self.reader, self.reader.place(self.from + number.len(), end)))
+    }
+
+    /// `let a : 3cm`, `let a == 3cm`: a name is given its value with `=`.
+    fn value_sign(&self) -> Option<Diagnostic> {
+        let all = self.all();
+        let rest = all.strip_prefix("let").or_else(|| all.strip_prefix("param"))?;
+        let name = rest.trim_start_matches([' ', '\t']);
+        let sign = name.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+        let sign = sign.trim_start_matches([' ', '\t']);
+        let length = sign.bytes().take_while(|byte| matches!(byte, b':' | b'=')).count();
+        let kind = sign.trim_start_matches([':', ' ']).starts_with(char::is_alphabetic);
+        if length == 0 || sign.get(..length) == Some("=") || kind && all.starts_with("param") {
+            return None;
+        }
+        let at = self.from + all.len() - sign.len();
+        Some(
+            Diagnostic::new("E0101", "a name is given its value with `=`")
+                .at(self.reader.place(at, at + length), "write `=`"),
+        )
+    }
+
     /// A unit behind its number and a blank, inside brackets.
     fn unit_apart(&self) -> Option<Diagnostic> {
         let token = self.token();
         let word = Name { text: token.to_owned(), span: self.span(token.len()) };
-        if token.is_empty() || token.starts_with(|c: char| !c.is_alphabetic()) {
+        if token.is_empty() || token.starts_with(|c: char| !(c.is_alphabetic() || c == '%')) {
             return None;
         }
         let number = self.before().trim_end_matches([' ', '\t']);

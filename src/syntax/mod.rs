@@ -15,6 +15,8 @@ mod statement;
 mod stray;
 pub mod tree;
 
+pub(crate) use stray::two_on_a_line;
+
 use crate::diagnostic::{Diagnostic, FileId, Span};
 
 /// The longest text that is read, in bytes.

@@ -54,6 +54,7 @@ impl Reader<'_> {
                         let text = self.string(inner);
                         from = Some(SourcePath::File(Name { text, span: place }));
                     }
+                    Rule::unquoted => from = Some(SourcePath::Path(vec![self.name(&inner)])),
                     Rule::path => {
                         let names = inner.into_inner().map(|name| self.name(&name)).collect();
                         from = Some(SourcePath::Path(names));
@@ -222,7 +223,7 @@ impl Reader<'_> {
             match part.as_rule() {
                 Rule::phrase => {
                     tail.phrase = self.phrase(part);
-                    end = tail.phrase.last().map_or(end, item_span);
+                    end = tail.phrase.last().map_or(end, Item::span);
                 }
                 Rule::drawing => {
                     tail.drawing = self.drawing(part);
@@ -285,14 +286,6 @@ impl Reader<'_> {
             }
         }
         rows
-    }
-}
-
-/// The place of an item.
-pub(super) fn item_span(item: &Item) -> Span {
-    match item {
-        Item::Comma(span) | Item::Arrow(span) | Item::Equals(span) => *span,
-        Item::Expr(Expr { span, .. }) => *span,
     }
 }
 

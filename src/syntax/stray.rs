@@ -249,12 +249,16 @@ impl Reader<'_> {
     /// one is told, and where that is clear, mended.
     pub(super) fn beside(&mut self, items: &mut Vec<Item>, item: Item) -> Option<Item> {
         let Item::Expr(next) = &item else { return Some(item) };
-        if let [.., Item::Expr(before), Item::Comma(_)] = &items[..] {
-            let before = before.clone();
-            self.decimal_comma(&before, next, true);
-            return Some(item);
+        if let [.., Item::Expr(before), Item::Comma(_)] = &mut items[..] {
+            let Some(mended) = self.decimal_comma(before, next, true) else { return Some(item) };
+            *before = mended;
+            items.pop();
+            return None;
         }
         let Some(Item::Expr(before)) = items.last_mut() else { return Some(item) };
+        if before.kind == ExprKind::Unread && before.span.end == next.span.start {
+            return None;
+        }
         if let ExprKind::Path(names) = &next.kind
             && let [word] = &names[..]
             && let Some(told) = mistake::apart(self.text, before.span, word)
@@ -291,24 +295,33 @@ impl Reader<'_> {
         Some(item)
     }
 
-    /// Tells of `1,5cm`. In brackets `(0,5cm)` may well be a point; in a phrase it is not.
-    pub(super) fn decimal_comma(&mut self, before: &Expr, after: &Expr, in_phrase: bool) {
-        let (ExprKind::Number { value, unit: None }, ExprKind::Number { unit: Some(_), .. }) =
+    /// Tells of `1,5cm` and gives what was meant. In brackets `(0,5cm)` may well be a point; in a
+    /// phrase it is not.
+    pub(super) fn decimal_comma(
+        &mut self,
+        before: &Expr,
+        after: &Expr,
+        in_phrase: bool,
+    ) -> Option<Expr> {
+        let (ExprKind::Number { value, unit: None }, ExprKind::Number { unit, .. }) =
             (&before.kind, &after.kind)
         else {
-            return;
+            return None;
         };
         let (start, end) = (before.span.end as usize, after.span.start as usize);
-        if self.slice(start, end) != "," || (*value == 0.0 && !in_phrase) {
-            return;
+        if self.slice(start, end) != "," || unit.is_none() || (*value == 0.0 && !in_phrase) {
+            return None;
         }
         let span = before.span.to(after.span);
-        let written = self.slice(span.start as usize, span.end as usize);
-        self.tell(
-            Diagnostic::new("E0109", "a decimal point is a point, not a comma")
-                .at(span, format!("write `{}`", written.replace(',', ".")))
-                .help("two numbers in a row are written with a blank after the comma"),
-        );
+        let told = mistake::decimal_comma(self, span);
+        self.tell(told);
+        let digits = unit.as_ref().map_or(span.end, |unit| unit.span.start);
+        let number = self.slice(span.start as usize, digits as usize).replace(',', ".");
+        let kind = match number.parse() {
+            Ok(value) => ExprKind::Number { value, unit: unit.clone() },
+            Err(_) => ExprKind::Unread,
+        };
+        Some(Expr { span, kind })
     }
 }
 
@@ -363,7 +376,8 @@ fn balance(text: &str) -> (usize, usize) {
     (closed, open)
 }
 
-fn two_on_a_line(at: Span) -> Diagnostic {
+/// What to say of a statement on the line of the one before it.
+pub(crate) fn two_on_a_line(at: Span) -> Diagnostic {
     Diagnostic::new("E0107", "a second statement begins on this line")
         .at(at, "here")
         .help("put it on a line of its own, or `;` before it")

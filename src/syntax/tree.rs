@@ -162,6 +162,16 @@ pub enum Item {
     Expr(Expr),
 }
 
+impl Item {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Item::Comma(span) | Item::Arrow(span) | Item::Equals(span) => *span,
+            Item::Expr(expr) => expr.span,
+        }
+    }
+}
+
 /// One row of a chart or drawing: the raw text between its bars.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Row {

@@ -91,6 +91,10 @@ impl World for Disk {
         let root = &self.root;
         self.opened.open(path, |path| Self::read(root, path))
     }
+
+    fn take_in(&mut self, title: &str, text: &str) -> FileId {
+        self.opened.take_in(title, text)
+    }
 }
 
 #[cfg(test)]

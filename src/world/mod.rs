@@ -20,6 +20,10 @@ pub trait World: Texts {
     /// # Errors
     /// A sentence saying why it cannot be read.
     fn open(&mut self, path: &str) -> Result<FileId, String>;
+
+    /// Takes in a text that is no file, such as an argument of the call, so that messages can
+    /// show its places. `title` stands for its path; nothing can `use` it.
+    fn take_in(&mut self, title: &str, text: &str) -> FileId;
 }
 
 /// The files opened so far.
@@ -43,7 +47,9 @@ impl Opened {
         let text = match library::text(&path) {
             Some(text) => text.to_owned(),
             None if path.starts_with("std::") => {
-                return Err(format!("the library has no `{path}`"));
+                let near = crate::diagnostic::spelling::nearest(&path, library::names());
+                let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+                return Err(format!("the library has no `{path}`{near}"));
             }
             None => read(&path)?,
         };
@@ -51,6 +57,13 @@ impl Opened {
         self.files.push((path.clone(), text));
         self.numbers.insert(path, FileId(number));
         Ok(FileId(number))
+    }
+
+    /// A text that no path leads to.
+    fn take_in(&mut self, title: &str, text: &str) -> FileId {
+        let number = u32::try_from(self.files.len()).unwrap_or(u32::MAX);
+        self.files.push((title.to_owned(), text.to_owned()));
+        FileId(number)
     }
 
     fn get(&self, file: FileId) -> Option<&(String, String)> {

@@ -1,7 +1,10 @@
 //! Darts and notches: places along drawn edges, wedges cut out of them.
 
 use super::super::Evaluator;
-use super::super::fields::{Arg, Fields, Phrase};
+use super::super::fields::{Arg, Fields, Phrase, bare};
+use super::super::words::Form;
+use super::instance::shape_edges;
+use super::operation::SHAPES;
 use super::shape::SIZE;
 use super::sheet::{self, Cut, Drawn, Sheet};
 use crate::diagnostic::Diagnostic;
@@ -41,11 +44,17 @@ impl<'t> Evaluator<'t> {
         let place = self.quantity_of(arg, &[Dimension::LENGTH, Dimension::NUMBER])?;
         let mut at = if place.dimension.is_number() { place.value * length } else { place.value };
         if !(-1e-9..=length + 1e-9).contains(&at) {
-            self.tell(
+            let mut told =
                 Diagnostic::new("E0303", format!("this edge is {} long", units::length(length)))
                     .at(arg.expr.span, format!("{} lies beyond its ends", units::length(at)))
-                    .at(edge.span, "the edge"),
-            );
+                    .at(edge.span, "the edge");
+            if place.dimension.is_number() && place.value > 1.0 {
+                let n = place.value;
+                told = told.help(format!(
+                    "a number without a unit counts whole edges; write `{n}%` or `{n}cm`"
+                ));
+            }
+            self.tell(told);
             return None;
         }
         at = at.clamp(0.0, length);
@@ -191,16 +200,59 @@ impl<'t> Evaluator<'t> {
         fields: &Fields<'t>,
         rings: &[Vec<Drawn>],
         sheet: &mut Sheet,
-    ) -> Option<()> {
-        let outline = sheet.rings.first().map(|pieces| sheet::closed(pieces))?;
+    ) -> bool {
+        let outline = sheet.rings.first().map(|pieces| sheet::closed(pieces)).unwrap_or_default();
+        let mut sound = true;
         for phrase in fields.all("notch") {
-            let (_, _, edge) = self.drawn_edge(phrase.value("on")?, rings)?;
-            let place = self.along(phrase, rings, edge)?;
+            let edge = phrase.value("on").and_then(|on| self.drawn_edge(on, rings));
+            let place =
+                edge.and_then(|(_, _, edge)| Some((edge, self.along(phrase, rings, edge)?)));
+            let Some((edge, place)) = place else {
+                sound = false;
+                continue;
+            };
             let (at, direction) = curve::at(&edge.path, place);
             let left = curve::unit(direction + PI / 2.0);
             let inward = if outline.winding(at + left * 1e-4) != 0 { left } else { -left };
             sheet.notches.push((at, inward));
         }
-        Some(())
+        sound
+    }
+
+    /// Looks over the operations of a panel whose edges could not be drawn, for mistakes of
+    /// their own.
+    pub(super) fn look_over(
+        &mut self,
+        fields: &Fields<'t>,
+        shape: &Phrase<'t>,
+        outline: Option<&Fields<'t>>,
+    ) {
+        let mut names: Vec<&str> = shape_edges(shape).to_vec();
+        if let Some(outline) = outline {
+            let labels = outline.phrases.iter().filter_map(|edge| edge.label);
+            let spoiled = outline.spoiled.iter().filter_map(|edge| edge.label);
+            names.extend(labels.chain(spoiled).map(|label| label.text.as_str()));
+        }
+        // Traced edges bring names of their own.
+        let all_known = outline.is_none_or(|outline| !outline.mentions("trace"));
+        let lines = fields.phrases.iter().filter(|line| line.word.form == Form::Action);
+        for line in lines.filter(|line| !SHAPES.contains(&line.word.name)) {
+            for arg in ["on", "from", "across"].into_iter().filter_map(|word| line.value(word)) {
+                let Some(name) = bare(arg.expr) else { continue };
+                if all_known && !names.contains(&name.text.as_str()) {
+                    self.no_member("this panel", name, names.iter().copied());
+                }
+            }
+            let lengths = ["width", "depth", "radius"];
+            for arg in lengths.into_iter().filter_map(|word| line.value(word)) {
+                self.quantity(arg, Dimension::LENGTH);
+            }
+            if let ("dart" | "notch", Some(at)) = (line.word.name, line.value("at")) {
+                self.quantity_of(at, &[Dimension::LENGTH, Dimension::NUMBER]);
+            }
+            if let Some(to) = line.value("to") {
+                self.point(to);
+            }
+        }
     }
 }

@@ -8,6 +8,7 @@ use super::super::scope::{BindingId, ScopeId, What};
 use super::super::value::Value;
 use super::super::words::{Kind, vocabulary};
 use super::edge::{EdgeRef, Which};
+use super::operation::SHAPES;
 use super::{Draft, Instance, InstanceId};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Expr, ExprKind, Name, Statement, StatementKind};
@@ -16,7 +17,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Names of the edges of a shape.
-fn shape_edges(phrase: &Phrase<'_>) -> &'static [&'static str] {
+pub(super) fn shape_edges(phrase: &Phrase<'_>) -> &'static [&'static str] {
     match phrase.word.name {
         "rectangle" => &["bottom", "end", "top", "start"],
         "circle" => &["rim"],
@@ -84,7 +85,12 @@ impl<'t> Evaluator<'t> {
         let fields = self.read_block(Kind::Panel, span, title, merged, scope);
         let mut outline = None;
         let mut holes = Vec::new();
+        let mut shaped = false;
         for (number, phrase) in fields.phrases.iter().enumerate() {
+            // Of two shapes, which are told of, the first names the edges.
+            if SHAPES.contains(&phrase.word.name) && std::mem::replace(&mut shaped, true) {
+                continue;
+            }
             match phrase.word.name {
                 "outline" => {
                     let read = self.read_outline(phrase, &merged.edges, scope, instance);

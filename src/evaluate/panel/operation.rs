@@ -13,7 +13,7 @@ use crate::units::{self, Dimension};
 use kurbo::{Affine, BezPath, Point, Shape};
 
 /// Shapes of which a panel has one.
-const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring"];
+pub(in super::super) const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring"];
 
 impl<'t> Evaluator<'t> {
     /// Draws and cuts the panel of an instance.
@@ -23,6 +23,20 @@ impl<'t> Evaluator<'t> {
             (*item, fields.clone(), outline.clone(), holes.clone());
         let name = self.item(item).name.clone();
         let span = self.item(item).span;
+        let fabric = self.fabric_of(item, 0);
+        let grain = self.quantity_or(&fields, "grain", Dimension::ANGLE, 0.0);
+        let cell = match fields.value("grid") {
+            Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-4, 1.0).map(Some),
+            None => Some(None),
+        };
+        let layer = match fields.value("layer") {
+            None => Some((0, false)),
+            Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => {
+                Some((0, true))
+            }
+            Some(arg) if self.unknown_word(arg, &["inside"]) => None,
+            Some(arg) => self.whole_number(arg, -100, 100).map(|layer| (layer as i32, false)),
+        };
         let shapes: Vec<&Phrase<'t>> =
             fields.phrases.iter().filter(|p| SHAPES.contains(&p.word.name)).collect();
         let shape = match shapes.as_slice() {
@@ -45,55 +59,50 @@ impl<'t> Evaluator<'t> {
                 return None;
             }
         };
-        let mut rings: Vec<Vec<Drawn>> = if shape.word.name == "outline" {
-            let from = shape.value("from")?;
-            let start = self.point(from)?;
-            let read = outline?;
-            vec![self.draw(&read, start, from.expr.span, &format!("`{name}`"))?]
-        } else {
-            self.shape(shape)?
+        let Some(mut rings) = self.rings_of(shape, outline.as_ref(), &name) else {
+            self.look_over(&fields, shape, outline.as_ref());
+            return None;
         };
         // A piece of which a line is not known says nothing to those that are sewn to it.
         let mut sound = fields.spoiled.is_empty();
         for (number, phrase) in fields.phrases.iter().enumerate() {
             if phrase.word.name == "hole" {
                 let read = holes.iter().find(|(n, _)| *n == number).map(|(_, read)| read);
-                match self.hole(phrase, read, &name) {
+                let ring = self.hole(phrase, read, &name);
+                match ring.filter(|ring| self.within_outline(ring, &rings, phrase.span)) {
                     Some(ring) => rings.push(ring),
                     None => sound = false,
                 }
             }
         }
         let drawn: Vec<Drawn> = rings.iter().flatten().cloned().collect();
-        let mut sheet = self.darted(&fields, &rings, &name).or_else(|| {
+        let mut sheet = self.darted(&fields, &rings, &name).unwrap_or_else(|| {
+            // Without its darts the piece still shows its other mistakes.
             sound = false;
-            None
-        })?;
-        sound &= self.notched(&fields, &rings, &mut sheet).is_some();
+            let mut plain = Sheet::default();
+            rings.iter().for_each(|ring| plain.add_ring(ring, &[]));
+            plain
+        });
+        sound &= self.notched(&fields, &rings, &mut sheet);
         for phrase in fields.all("rotate") {
-            let angle = self.quantity(phrase.value("by")?, Dimension::ANGLE)?;
+            let angle = phrase.value("by").and_then(|arg| self.quantity(arg, Dimension::ANGLE));
             let about = match phrase.value("about") {
-                Some(arg) => self.point(arg)?,
-                None => [0.0, 0.0],
+                Some(arg) => self.point(arg),
+                None => Some([0.0, 0.0]),
             };
-            sheet = sheet.mapped(Affine::rotate_about(angle, Point::new(about[0], about[1])));
+            match angle.zip(about) {
+                Some((angle, [x, y])) => {
+                    sheet = sheet.mapped(Affine::rotate_about(angle, Point::new(x, y)));
+                }
+                None => sound = false,
+            }
         }
         let (sheet, halves) = self.folded(&fields, sheet, item)?;
         let pieces = self.copies(&fields, sheet, halves.as_ref())?;
         for piece in &pieces {
             sound &= self.sound_piece(piece, &name, span);
         }
-        let fabric = self.fabric_of(item, 0);
-        let grain = self.quantity_or(&fields, "grain", Dimension::ANGLE, 0.0)?;
-        let cell = match fields.value("grid") {
-            Some(arg) => Some(self.within_range(arg, Dimension::LENGTH, 1e-4, 1.0)?),
-            None => None,
-        };
-        let (layer, inside) = match fields.value("layer") {
-            None => (0, false),
-            Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => (0, true),
-            Some(arg) => (self.whole_number(arg, -100, 100)? as i32, false),
-        };
+        let (grain, cell, (layer, inside)) = (grain?, cell?, layer?);
         sound.then_some(Draft {
             item,
             name,
@@ -107,6 +116,24 @@ impl<'t> Evaluator<'t> {
             drawn,
             pieces,
         })
+    }
+
+    /// The outline of a panel from its shape.
+    fn rings_of(
+        &mut self,
+        shape: &Phrase<'t>,
+        outline: Option<&super::Fields<'t>>,
+        name: &str,
+    ) -> Option<Vec<Vec<Drawn>>> {
+        if shape.word.name != "outline" {
+            return self.shape(shape);
+        }
+        let from = shape.value("from")?;
+        let start = self.point(from);
+        // Without its start an outline still shows the mistakes of its edges.
+        let drawn =
+            self.draw(outline?, start.unwrap_or_default(), from.expr.span, &format!("`{name}`"));
+        start.and(drawn).map(|ring| vec![ring])
     }
 
     /// The fabric said behind `of`, by the panel or by the one it copies, or as a property.

@@ -145,6 +145,9 @@ impl<'t> Evaluator<'t> {
             if bare(to.expr).is_some_and(|name| name.text == "start") {
                 return Some(start);
             }
+            if self.unknown_word(to, &["start"]) {
+                return None;
+            }
             let [x, y] = self.point(to)?;
             return Some(Point::new(x, y));
         }
@@ -162,6 +165,7 @@ impl<'t> Evaluator<'t> {
         match bare(arg.expr).map(|name| name.text.as_str()) {
             Some("smooth") => Some(Heading::Smooth),
             Some("square") => Some(Heading::Square),
+            _ if self.unknown_word(arg, &["smooth", "square"]) => None,
             _ => self.quantity(arg, Dimension::ANGLE).map(Heading::Said),
         }
     }

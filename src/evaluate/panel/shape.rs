@@ -2,11 +2,11 @@
 
 use super::super::Evaluator;
 use super::super::fields::{Arg, Phrase};
-use super::sheet::Drawn;
+use super::sheet::{self, Drawn};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::curve;
 use crate::units::{self, Dimension};
-use kurbo::{BezPath, Point};
+use kurbo::{BezPath, Point, Shape};
 use std::f64::consts::{PI, TAU};
 
 /// A pattern piece may be so large, m.
@@ -72,6 +72,30 @@ impl<'t> Evaluator<'t> {
                 ]])
             }
         }
+    }
+
+    /// Whether a hole lies in the cloth, at least in part; one that does not is told.
+    pub(super) fn within_outline(
+        &mut self,
+        hole: &[Drawn],
+        rings: &[Vec<Drawn>],
+        span: Span,
+    ) -> bool {
+        let Some(outline) = rings.first() else { return true };
+        let outline: Vec<BezPath> = outline.iter().map(|edge| edge.path.clone()).collect();
+        let outline = sheet::closed(&outline);
+        let inside = hole.iter().any(|edge| {
+            let half = curve::length(&edge.path) / 2.0;
+            [0.0, half].iter().any(|&arc| outline.winding(curve::at(&edge.path, arc).0) != 0)
+        });
+        if !inside {
+            self.tell(
+                Diagnostic::new("E0410", "this hole lies outside the cloth")
+                    .at(span, "here")
+                    .help("move it to where the panel is"),
+            );
+        }
+        inside
     }
 
     pub(super) fn hole(

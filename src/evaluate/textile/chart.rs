@@ -3,6 +3,7 @@
 use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Fields, Phrase};
+use crate::evaluate::poison::unread;
 use crate::evaluate::words::Kind;
 use crate::syntax::tree::{Name, Row};
 
@@ -54,12 +55,16 @@ pub(super) fn legend<'t>(ev: &mut Evaluator<'t>, fields: &Fields<'t>) -> Vec<Phr
 
 /// A key of a legend that means something unknown.
 pub(super) fn unknown_meaning(ev: &mut Evaluator<'_>, line: &Phrase<'_>, known: &[&str]) {
-    let text = ev.snippet(line.span).to_owned();
-    let word = text.split_once(':').map_or("", |(_, rest)| rest.trim()).to_owned();
+    if unread(line.rest) {
+        return;
+    }
+    let place =
+        line.rest.first().map_or(line.span, |first| Span { end: line.span.end, ..first.span() });
+    let word = ev.snippet(place).to_owned();
     let label = ev.meant(&word, known.iter().copied());
     ev.tell(
         Diagnostic::new("E0602", format!("`{word}` is nothing that a cell can be"))
-            .at(line.span, label)
+            .at(place, label)
             .help(format!("a cell can be {}", known.join(", "))),
     );
 }

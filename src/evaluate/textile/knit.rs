@@ -31,7 +31,11 @@ pub(in crate::evaluate) fn knit(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Kn
         match word {
             Some("face" | "knit") => keys.set(&line.key.text, Stitch::Face),
             Some("back" | "purl") => keys.set(&line.key.text, Stitch::Back),
-            _ => chart::unknown_meaning(ev, &line, &["face", "back", "knit", "purl"]),
+            _ => {
+                chart::unknown_meaning(ev, &line, &["face", "back", "knit", "purl"]);
+                // The key is known all the same; its meaning has been told of.
+                keys.set(&line.key.text, Stitch::Face);
+            }
         }
     }
     let known = "`.` `k` `R` are loops drawn to the face, `-` `p` `L` to the back; \

@@ -20,7 +20,8 @@ pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<W
     let ways: Vec<&Phrase<'_>> =
         fields.phrases.iter().filter(|phrase| WAYS.contains(&phrase.word.name)).collect();
     let way = match ways.as_slice() {
-        [] if WAYS.iter().any(|word| fields.spoils(word)) => return None,
+        // What cannot be read was meant to say it.
+        [] if !fields.spoiled.is_empty() => return None,
         [] => {
             ev.tell(
                 Diagnostic::new("E0208", format!("{} must say how it is woven", fields.title))
