@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector3};
 const HANGS: f64 = 0.45;
 
 /// How far the hand is turned so that its back shows in front, rad.
-const TURNED: f64 = 0.45;
+const TURNED: f64 = 0.30;
 
 /// Arm and hand.
 #[derive(Clone, Debug)]

@@ -235,17 +235,25 @@ fn quads(grid: &Grid) -> (Vec<Point3<f64>>, Vec<[u32; 4]>) {
     (vertices, quads)
 }
 
-/// Places of nodes over `bounds` with a margin; `step` gives their distance along an axis at a
-/// place, and all are moved by `shift` of the first step.
+/// Places of nodes over `bounds` with a margin, from its middle outwards; `step` gives their
+/// distance along an axis at a place, and all are moved by `shift` of a step.
 fn lines(bounds: Bounds, shift: f64, step: &impl Fn(usize, f64) -> f64) -> [Vec<f64>; 3] {
     std::array::from_fn(|k| {
-        let first = step(k, bounds.low[k]);
-        let mut at = bounds.low[k] - (1.5 + shift) * first;
-        let mut line = vec![at];
-        while at < bounds.high[k] + 1.5 * step(k, at) {
-            at += step(k, at).max(1e-4);
-            line.push(at);
-        }
+        let middle = (bounds.low[k] + bounds.high[k]) / 2.0;
+        let middle = middle + shift * step(k, middle);
+        let outwards = |end: f64, way: f64| {
+            let mut line = Vec::new();
+            let mut at = middle;
+            while (at - end) * way < 1.5 * step(k, at) {
+                at += way * step(k, at + way * step(k, at) / 2.0).max(1e-4);
+                line.push(at);
+            }
+            line
+        };
+        let mut line = outwards(bounds.low[k], -1.0);
+        line.reverse();
+        line.push(middle);
+        line.extend(outwards(bounds.high[k], 1.0));
         line
     })
 }

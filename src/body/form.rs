@@ -3,7 +3,7 @@
 
 use super::arm::Arm;
 use super::figure::{STATIONS, Template, template};
-use super::head::{self, Head};
+use super::head::Head;
 use super::leg::Leg;
 use super::loft::Loft;
 use super::measures::Measures;
@@ -60,8 +60,8 @@ pub(super) struct Form {
     pub(super) neck_plane: (Point3<f64>, Vector3<f64>),
     /// Height of the whole figure.
     pub(super) height: f64,
-    /// Height of the widest section of the head.
-    pub(super) brow: f64,
+    /// Middle of the widest section of the head.
+    pub(super) brow: Point3<f64>,
     /// Height of the seventh neck vertebra.
     pub(super) nape: f64,
     /// Half the distance between the bust points.
@@ -107,7 +107,7 @@ impl Form {
         Ok(Form {
             trunk: Part::new(torso),
             neck_plane: head.collar(table, size),
-            brow: head::brow(measures),
+            brow: head.brow(measures),
             nape,
             bust_half: full / 2.0,
             head,
@@ -227,17 +227,17 @@ impl Form {
         // From 0 to 1 over 4 cm beyond a place.
         let beyond = |past: f64| (past / (0.04 * size)).clamp(0.0, 1.0);
         match axis {
-            0 => 1.0 - 0.42 * beyond(at.abs() - wrist.x + 0.05 * size),
+            0 => 1.0 - 0.50 * beyond(at.abs() - wrist.x + 0.05 * size),
             1 => {
                 let foot = 0.38 * beyond(0.12 * size - at);
                 let head = 0.30 * beyond(at - self.nape + 0.02 * size);
                 let hand = (wrist.y + 0.02 * size - at).min(at - wrist.y + 0.24 * size);
-                1.0 - foot - head - 0.28 * beyond(hand)
+                1.0 - foot - head - 0.45 * beyond(hand)
             }
             _ => {
                 let thumb = wrist.z + 0.07 * size;
                 let hand = (thumb + 0.03 * size - at).min(at - thumb + 0.11 * size);
-                1.0 - 0.30 * beyond(hand)
+                1.0 - 0.36 * beyond(hand)
             }
         }
     }

@@ -11,7 +11,7 @@ use nalgebra::{Point3, Vector3};
 const TALL: f64 = 0.396;
 
 /// Height of the widest section above the chin, as a share of the head's.
-const BROW: f64 = 0.67;
+const BROW: f64 = 0.63;
 
 /// Neck and head.
 #[derive(Clone, Debug)]
@@ -24,11 +24,6 @@ pub(super) struct Head {
 fn tall(measures: &Measures) -> f64 {
     let above = measures.get("height") - measures.nape();
     (0.5 * (TALL * measures.get("head") + 0.93 * above)).min(0.97 * above)
-}
-
-/// Height of the widest section, m.
-pub(super) fn brow(measures: &Measures) -> f64 {
-    measures.get("height") - (1.0 - BROW) * tall(measures)
 }
 
 impl Head {
@@ -45,6 +40,11 @@ impl Head {
             )),
             skull: Part::new(skull(table, height, tall(measures), scales.get("head"), size)),
         }
+    }
+
+    /// Middle of the widest section, m.
+    pub(super) fn brow(&self, measures: &Measures) -> Point3<f64> {
+        self.skull.shape.centre(BROW * tall(measures))
     }
 
     /// Middle and upward direction of the ring where a shirt's collar lies: square to the neck,
