@@ -1,7 +1,8 @@
 //! A cloth as the solver sees it: knots with mass, threads, shearing cells, band triangles, folds.
 
 use super::bending::{self, Fold};
-use super::matrix::{Matrix, Pattern};
+use super::grid::Taken;
+use super::matrix::Pattern;
 use super::membrane::{self, Triangle};
 use super::shear::Cell;
 use super::tension::Spring;
@@ -29,11 +30,14 @@ pub struct Cloth {
     pub triangles: Vec<Triangle>,
     /// Bending.
     pub folds: Vec<Fold>,
+    /// How many of the springs, cells and folds, the first ones, belong to the grid; the others
+    /// belong to the rim.
+    pub regular: [usize; 3],
     /// All faces as triangles of knots, cells cut in two; anticlockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
     /// Shortest side of a grid cell, m.
     pub cell: f64,
-    /// Stiffness of bending off the diagonal, in the order of the matrix's blocks, N/m.
+    /// Stiffness of the rim's bending off the diagonal, in the order of its matrix's blocks, N/m.
     pub fold_off: Vec<f64>,
     /// Seconds of damping per stiffness: the viscous share of every elastic force is this times
     /// its rate (Rayleigh's second coefficient).
@@ -45,9 +49,8 @@ pub struct Cloth {
 const SWING: f64 = 12.0;
 
 impl Cloth {
-    /// Builds the cloth, and an empty matrix in which all its stiffness and the given further
-    /// pairs of knots have a place.
-    pub fn new(compiled: &Compiled, weld: Weld, sewn: &[[u32; 2]]) -> (Self, Matrix) {
+    /// Builds the cloth.
+    pub fn new(compiled: &Compiled, weld: Weld) -> Self {
         let n = weld.count;
         let mut cloth = Cloth {
             mass: vec![0.0; n],
@@ -131,8 +134,7 @@ impl Cloth {
             cloth.cell = 0.01;
         }
         cloth.damping = if total > 0.0 { 2.0 * damping / total / SWING } else { 0.0 };
-        let matrix = cloth.lay_out(sewn);
-        (cloth, matrix)
+        cloth
     }
 
     /// Number of knots.
@@ -140,25 +142,38 @@ impl Cloth {
         self.mass.len()
     }
 
-    fn lay_out(&mut self, sewn: &[[u32; 2]]) -> Matrix {
-        let springs = self.springs.iter().map(|s| s.ends);
-        let cells = self.cells.iter().flat_map(|c| pairs(&c.corners));
+    /// Leaves to the rim what the grid has not taken, and gives the pairs of knots that it joins,
+    /// the given further ones included.
+    pub fn leave(&mut self, taken: &Taken, sewn: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        self.regular = [
+            first(&mut self.springs, &taken.springs),
+            first(&mut self.cells, &taken.cells),
+            first(&mut self.folds, &taken.folds),
+        ];
+        let [springs, cells, folds] = self.regular;
+        let springs = self.springs[springs..].iter().map(|s| s.ends);
+        let cells = self.cells[cells..].iter().flat_map(|c| pairs(&c.corners));
         let triangles = self.triangles.iter().flat_map(|t| pairs(&t.corners));
-        let folds = self.folds.iter().flat_map(|f| pairs(&f.knots[..f.count]));
-        let all = springs.chain(cells).chain(triangles).chain(folds).chain(sewn.iter().copied());
-        let pattern = Pattern::new(self.knots(), all);
-        for s in &mut self.springs {
+        let folds = self.folds[folds..].iter().flat_map(|f| pairs(&f.knots[..f.count]));
+        springs.chain(cells).chain(triangles).chain(folds).chain(sewn.iter().copied()).collect()
+    }
+
+    /// Finds the places of the rim's elements in its matrix. `number` gives the row of each knot.
+    pub fn lay_out(&mut self, pattern: &Pattern, number: &[u32]) {
+        let slot = |a: u32, b: u32| pattern.slot(number[a as usize], number[b as usize]);
+        let [springs, cells, folds] = self.regular;
+        for s in &mut self.springs[springs..] {
             let [a, b] = s.ends;
-            s.slots = match (pattern.slot(a, b), pattern.slot(b, a)) {
+            s.slots = match (slot(a, b), slot(b, a)) {
                 (Some(ab), Some(ba)) => Some([ab, ba]),
                 _ => None,
             };
         }
-        for c in &mut self.cells {
+        for c in &mut self.cells[cells..] {
             let mut k = 0;
             for i in 0..4 {
                 for j in (0..4).filter(|&j| j != i) {
-                    c.slots[k] = pattern.slot(c.corners[i], c.corners[j]);
+                    c.slots[k] = slot(c.corners[i], c.corners[j]);
                     k += 1;
                 }
             }
@@ -167,24 +182,32 @@ impl Cloth {
             let mut k = 0;
             for i in 0..3 {
                 for j in (0..3).filter(|&j| j != i) {
-                    t.slots[k] = pattern.slot(t.corners[i], t.corners[j]);
+                    t.slots[k] = slot(t.corners[i], t.corners[j]);
                     k += 1;
                 }
             }
         }
         self.fold_off = vec![0.0; pattern.blocks()];
-        for fold in &self.folds {
+        for fold in &self.folds[folds..] {
             for (i, wi) in fold.terms() {
                 for (j, wj) in fold.terms() {
                     let value = fold.stiffness * wi * wj;
-                    if let Some(slot) = pattern.slot(i, j) {
+                    if let Some(slot) = slot(i, j) {
                         self.fold_off[slot as usize] += value;
                     }
                 }
             }
         }
-        Matrix::new(pattern)
     }
+}
+
+/// Brings the marked elements to the front, each kind in its order; gives how many there are.
+fn first<T: Copy>(list: &mut [T], marked: &[bool]) -> usize {
+    let chosen = |which: bool| list.iter().zip(marked).filter(move |m| *m.1 == which).map(|m| *m.0);
+    let front: Vec<T> = chosen(true).collect();
+    let sorted: Vec<T> = front.iter().copied().chain(chosen(false)).collect();
+    list.copy_from_slice(&sorted);
+    front.len()
 }
 
 fn pairs(knots: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {

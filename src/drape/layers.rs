@@ -12,9 +12,9 @@
 
 use super::boxes::{self, Extent};
 use super::cloth::Cloth;
-use super::conjugate::Extra;
-use super::matrix::{Lane, Matrix, add, lane, vector};
+use super::grid::product::Three;
 use super::proximity::Pair;
+use super::system::Extra;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -83,14 +83,25 @@ impl Touches {
         }
     }
 
-    /// Adds to the diagonal that the preconditioner sees.
-    pub fn stiffen(&self, matrix: &mut Matrix) {
-        for t in &self.0 {
+    /// Blocks on the diagonal, by knots, for the preconditioner to see.
+    pub fn diagonal(&self) -> impl Iterator<Item = (u32, Matrix3<f64>)> + '_ {
+        self.0.iter().flat_map(|t| {
             let block = t.block();
-            for (k, w) in t.knots.iter().zip(t.weights) {
-                add(&mut matrix.diagonal[*k as usize], &(block * (w * w)));
-            }
-        }
+            t.knots.into_iter().zip(t.weights).map(move |(k, w)| (k, block * (w * w)))
+        })
+    }
+
+    /// Contacts as a term of a linear system whose numbers stand in the given slots.
+    pub fn term(&self, slot: &[u32]) -> Term {
+        #[allow(clippy::cast_possible_truncation)]
+        let single = |t: &Touch| Single {
+            slots: t.knots.map(|k| slot[k as usize]),
+            weights: t.weights.map(|w| w as f32),
+            normal: [t.normal.x as f32, t.normal.y as f32, t.normal.z as f32],
+            along: (t.stiffness - t.grip) as f32,
+            grip: t.grip as f32,
+        };
+        Term(self.0.iter().map(single).collect())
     }
 
     /// How many.
@@ -104,22 +115,40 @@ impl Touches {
     }
 }
 
-impl Extra for Touches {
-    fn multiply(&self, x: &[Lane], y: &mut [Lane]) {
+/// Contacts as a term of the linear system, in single precision.
+#[derive(Clone, Debug, Default)]
+pub struct Term(Vec<Single>);
+
+#[derive(Clone, Copy, Debug)]
+struct Single {
+    slots: [u32; 4],
+    weights: [f32; 4],
+    normal: [f32; 3],
+    along: f32,
+    grip: f32,
+}
+
+impl Extra for Term {
+    fn multiply(&self, x: &Three, y: &mut Three) -> f64 {
+        let mut total = 0.0;
         for t in &self.0 {
-            let mut way = V::zeros();
-            for (k, w) in t.knots.iter().zip(t.weights) {
-                way += vector(&x[*k as usize]) * w;
-            }
-            let f = t.normal * (t.normal.dot(&way) * (t.stiffness - t.grip)) + way * t.grip;
-            for (k, w) in t.knots.iter().zip(t.weights) {
-                let f = lane(&(f * w));
-                let y = &mut y[*k as usize];
-                for l in 0..3 {
-                    y[l] += f[l];
+            let mut way = [0.0f32; 3];
+            for (s, w) in t.slots.iter().zip(t.weights) {
+                for c in 0..3 {
+                    way[c] += x[c][*s as usize] * w;
                 }
             }
+            let n = t.normal;
+            let along = t.along * (n[0] * way[0] + n[1] * way[1] + n[2] * way[2]);
+            let f = [0, 1, 2].map(|c| n[c] * along + way[c] * t.grip);
+            for (s, w) in t.slots.iter().zip(t.weights) {
+                for c in 0..3 {
+                    y[c][*s as usize] += f[c] * w;
+                }
+            }
+            total += f64::from(f[0] * way[0] + f[1] * way[1] + f[2] * way[2]);
         }
+        total
     }
 }
 

@@ -1,7 +1,7 @@
 //! The lines of a drape schedule: sew, settle, run.
 
-use super::conjugate::Aim;
 use super::step::{Manner, Stuck, Workshop};
+use super::system::Aim;
 use crate::progress::Progress;
 
 /// How a line of the schedule went.
