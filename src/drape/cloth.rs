@@ -35,6 +35,11 @@ pub struct Cloth {
     pub regular: [usize; 3],
     /// All faces as triangles of knots, cells cut in two; anticlockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
+    /// Panel of each face and the rectangle `[u0, v0, u1, v1]` of its plane that it (or the cell
+    /// whose half it is) takes, m.
+    pub face_places: Vec<(u32, [f32; 4])>,
+    /// Shortest edge at each knot, m.
+    pub spacing: Vec<f64>,
     /// Shortest side of a grid cell, m.
     pub cell: f64,
     /// Stiffness of the rim's bending off the diagonal, in the order of its matrix's blocks, N/m.
@@ -57,13 +62,26 @@ impl Cloth {
             area: vec![0.0; n],
             thickness: vec![0.0; n],
             friction: vec![0.0; n],
+            spacing: vec![f64::INFINITY; n],
             cell: f64::INFINITY,
             folds: bending::folds(compiled, &weld),
             weld,
             ..Cloth::default()
         };
         let mut damping = 0.0;
-        for panel in &compiled.panels {
+        #[allow(clippy::cast_possible_truncation)]
+        let plane = |particles: &[u32]| {
+            let mut plane = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+            for p in particles.iter().map(|p| compiled.particles[*p as usize]) {
+                for k in 0..2 {
+                    plane[k] = plane[k].min(p[k] as f32);
+                    plane[k + 2] = plane[k + 2].max(p[k] as f32);
+                }
+            }
+            plane
+        };
+        for (number, panel) in compiled.panels.iter().enumerate() {
+            let number = number as u32;
             let fabric = &compiled.fabrics[panel.fabric];
             let h = panel.cell;
             cloth.cell = cloth.cell.min(h);
@@ -91,6 +109,11 @@ impl Cloth {
                 });
                 cloth.faces.push([corners[0], corners[1], corners[2]]);
                 cloth.faces.push([corners[0], corners[2], corners[3]]);
+                cloth.face_places.extend([(number, plane(&particles)); 2]);
+                for k in corners {
+                    let k = &mut cloth.spacing[k as usize];
+                    *k = k.min(h);
+                }
                 let [a, b, c, d] = particles;
                 edges.extend([([a, b], false), ([d, c], false), ([b, c], true), ([a, d], true)]);
             }
@@ -111,6 +134,15 @@ impl Cloth {
                 let corners = particles.map(|p| cloth.weld.knot[p as usize]);
                 let uv = particles.map(|p| compiled.particles[p as usize]);
                 cloth.faces.push(corners);
+                cloth.face_places.push((number, plane(&particles)));
+                for k in 0..3 {
+                    let (a, b) = (uv[k], uv[(k + 1) % 3]);
+                    let length = libm::hypot(a[0] - b[0], a[1] - b[1]);
+                    for knot in [corners[k], corners[(k + 1) % 3]] {
+                        let s = &mut cloth.spacing[knot as usize];
+                        *s = s.min(length);
+                    }
+                }
                 let Some((gradient, area)) = membrane::rest(uv) else { continue };
                 lump(&mut cloth, &corners, area);
                 cloth.triangles.push(Triangle {

@@ -2,7 +2,6 @@
 
 pub mod air;
 pub mod bending;
-pub mod boxes;
 pub mod cloth;
 pub mod crossing;
 pub mod draped;

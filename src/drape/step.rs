@@ -9,7 +9,8 @@ use super::cloth::Cloth;
 use super::elastic;
 use super::grid::layout::Layout;
 use super::hold::Holds;
-use super::layers::{Layers, Touches};
+use super::layers::Layers;
+use super::layers::touch::Touches;
 use super::matrix::add_scalar;
 use super::sewing::Sewing;
 use super::skin::{self, Contact, Push, Skin};
@@ -220,7 +221,7 @@ impl<'a> Workshop<'a> {
                     LOOK
                 });
             }
-            touches = layers.touch(&self.cloth, &start, &slide);
+            touches = layers.touch(&self.cloth, &start, &ahead, &slide);
         }
         let mut iterations = 0;
         for pass in 0..PASSES {
@@ -248,7 +249,7 @@ impl<'a> Workshop<'a> {
             let on_skin = self.contact.runs_into(&self.cloth, &start, &ahead, &pushes);
             let on_cloth = pass + 1 < PASSES
                 && layers
-                    .as_ref()
+                    .as_mut()
                     .is_some_and(|l| l.catch(&self.cloth, &start, &ahead, &mut touches));
             if !on_skin && !on_cloth {
                 break;
@@ -257,7 +258,7 @@ impl<'a> Workshop<'a> {
         }
         let share = self.bound(&start, &mut ahead, manner);
         let dt = dt * share;
-        let cut = layers.as_ref().map_or(0, |l| l.guard(&start, &mut ahead));
+        let cut = layers.as_mut().map_or(0, |l| l.guard(&start, &mut ahead));
         self.layers = layers;
         self.contact.settle(&self.cloth, &start, &ahead);
         let mut speed = 0.0f64;
