@@ -88,6 +88,8 @@ pub struct Workshop<'a> {
     pub x: Vec<Vector3<f64>>,
     /// Speeds of the knots, m/s.
     pub v: Vec<Vector3<f64>>,
+    /// Movement of the knots in the last step, m.
+    last: Vec<Vector3<f64>>,
     /// Open seams.
     pub sewing: Sewing,
     /// What is held.
@@ -142,6 +144,7 @@ impl<'a> Workshop<'a> {
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
             system,
+            last: vec![Vector3::zeros(); x.len()],
             cloth,
             x,
             v,
@@ -266,6 +269,7 @@ impl<'a> Workshop<'a> {
             self.x[i] = start[i] + dx;
             self.v[i] = dx / dt;
         }
+        self.last = ahead;
         self.contact.look(&self.cloth, self.skin, &self.x);
         self.contact.lift(&self.cloth, &mut self.x, &mut self.v);
         for v in &self.v {
@@ -309,8 +313,7 @@ impl<'a> Workshop<'a> {
     ) -> (Vec<Matrix3<f64>>, Vec<Vector3<f64>>) {
         let dt = manner.dt;
         let scale = 1.0 + self.cloth.damping / dt;
-        let slide: Vec<Vector3<f64>> = v.iter().map(|v| v * dt).collect();
-        let mut force = self.system.assemble(&self.cloth, x, &slide, scale);
+        let mut force = self.system.assemble(&self.cloth, x, &self.last, scale);
         let off = &mut self.system.rim.matrix.off;
         for stitch in self.sewing.pairs.iter().filter(|_| manner.sewing > 0.0) {
             let [a, b] = stitch.knots.map(|k| k as usize);
