@@ -85,6 +85,23 @@ fn all_texts_of_the_project_keep_their_meaning() {
     assert!(sound > 40, "only {sound} texts were formatted");
 }
 
+/// `darzi fmt examples stdlib` changes nothing, nor would it in the pages.
+#[test]
+fn the_examples_the_library_and_the_pages_are_formatted() {
+    for path in files(&["examples", "stdlib"]) {
+        let text = fs::read_to_string(&path).unwrap();
+        assert_eq!(formatted(&text), text, "run `darzi fmt {}`", path.display());
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).unwrap();
+    let fenced: Vec<&str> = readme.split("```garment\n").skip(1).collect();
+    assert!(!fenced.is_empty());
+    for text in fenced {
+        let text = text.split("```").next().unwrap();
+        assert_eq!(formatted(text), text, "in README.md");
+    }
+}
+
 #[test]
 fn a_text_with_mistakes_in_its_shape_is_told_and_not_formatted() {
     for path in files(&["tests/data/errors"]) {

@@ -7,7 +7,9 @@ mod bar;
 mod cache;
 mod check;
 mod compile;
+mod difference;
 mod drape;
+mod fmt;
 mod new;
 mod output;
 mod project;
@@ -37,6 +39,8 @@ struct Cli {
 enum Command {
     /// Read a file and say what is wrong with it
     Check(check::Check),
+    /// Give files their one layout
+    Fmt(fmt::Fmt),
     /// Cut a garment into particles and seams: mesh.json and atlas.png
     Compile(compile::Compile),
     /// Sew a garment and hang it on its wearer: a .glb or .obj
@@ -92,6 +96,8 @@ struct Work {
 enum MessageFormat {
     /// With the lines they speak of
     Human,
+    /// One line a message: file:line:column: code: text
+    Short,
     /// One JSON object a line
     Json,
 }
@@ -137,6 +143,7 @@ enum Stop {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Check(it) => it.run(),
+        Command::Fmt(it) => it.run(),
         Command::Compile(it) => it.run(),
         Command::Drape(it) => it.run(),
         Command::Render(it) => it.run(),
