@@ -314,3 +314,29 @@ fn short_messages_are_one_line_each() {
     assert!(lines[1].starts_with("wrong.garment:3:36: E0302: "), "{lines:?}");
     assert_eq!(lines.len(), 2);
 }
+
+#[test]
+fn codes_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |arguments: &[&str]| {
+        let output = darzi(folder.path(), arguments);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &told(&output);
+        (code(&output), text)
+    };
+    let (end, page) = said(&["explain", "e0501"]);
+    assert_eq!(end, 0);
+    assert!(page.starts_with("E0501: lengths of a seam that do not agree\n"), "{page}");
+    assert!(page.contains("\nWrong:\n\n    garment") && page.contains("\nRight:\n"), "{page}");
+    let (end, list) = said(&["explain"]);
+    assert_eq!(end, 0);
+    assert_eq!(list.lines().count(), darzi::diagnostic::codes::CODES.len());
+    assert!(list.lines().any(|line| line == "E0102  a unit stands apart from its number"));
+    let (end, why) = said(&["explain", "E0571"]);
+    assert!(end == 2 && why.contains("did you mean E0501?"), "{why}");
+    let (end, why) = said(&["explain", "seams"]);
+    assert!(end == 2 && why.contains("`darzi explain` lists all"), "{why}");
+
+    std::fs::write(folder.path().join("a.garment"), "let a = 3 cm\n").unwrap();
+    let (end, report) = said(&["check", "a.garment"]);
+    assert!(end == 1 && report.ends_with("`darzi explain E0102` says more\n"), "{report}");
+}

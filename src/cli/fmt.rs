@@ -1,12 +1,12 @@
 //! `darzi fmt`: files in their one layout.
 
 use super::project::{Project, tell};
-use super::{MessageFormat, Stop, difference, output};
+use super::{MessageFormat, Stop, difference, output, say};
 use crate::diagnostic::Diagnostic;
 use crate::syntax::LONGEST_TEXT;
 use crate::syntax::format::format;
 use crate::world::{Memory, World};
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -110,17 +110,6 @@ impl Fmt {
             true => say(&difference::shown("<stdin>", &text, &new)).and(Err(Stop::Input)),
             false => say(&new),
         }
-    }
-}
-
-/// Writes to standard output. A reader that has seen enough is no failure.
-fn say(text: &str) -> Result<(), Stop> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Stop::Call(format!("cannot write to standard output: {error}")))
-        }
-        _ => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@ mod check;
 mod compile;
 mod difference;
 mod drape;
+mod explain;
 mod fmt;
 mod new;
 mod output;
@@ -17,6 +18,7 @@ mod render;
 
 use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -49,6 +51,8 @@ enum Command {
     Render(render::Render),
     /// Write a commented starter file
     New(new::New),
+    /// Say what the code of a message means
+    Explain(explain::Explain),
 }
 
 /// What every command that reads a `.garment` file takes.
@@ -139,6 +143,17 @@ enum Stop {
     Drape(String),
 }
 
+/// Writes to standard output. A reader that has seen enough is no failure.
+fn say(text: &str) -> Result<(), Stop> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Stop::Call(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
@@ -148,6 +163,7 @@ pub fn main() -> ExitCode {
         Command::Drape(it) => it.run(),
         Command::Render(it) => it.run(),
         Command::New(it) => it.run(),
+        Command::Explain(it) => it.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

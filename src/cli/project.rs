@@ -100,15 +100,14 @@ impl Project {
 
 /// Tells messages about texts on standard error.
 pub(super) fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
-    if diagnostics.is_empty() {
-        return;
-    }
+    let Some(first) = diagnostics.first() else { return };
     match format {
         MessageFormat::Json => eprint!("{}", json::lines(diagnostics, texts)),
         MessageFormat::Short => eprint!("{}", short::lines(diagnostics, texts)),
         MessageFormat::Human => {
             let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
             eprint!("{}", render::report(diagnostics, texts, color, 100));
+            eprintln!("`darzi explain {}` says more", first.code);
         }
     }
 }

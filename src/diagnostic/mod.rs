@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 pub mod codes;
 pub mod json;
+pub mod page;
 pub mod place;
 pub mod render;
 pub mod short;
