@@ -71,6 +71,7 @@ impl<'t> Pen<'t> {
         }
         let mark = self.mark();
         let kind = self.kind(before);
+        self.part_entries();
         self.next_property(kind, statement);
         self.shape(statement, true);
         let fits = self.width() <= super::WIDEST;
@@ -83,10 +84,7 @@ impl<'t> Pen<'t> {
     /// Ends a cell of kind `before` ahead of a property on the same line.
     fn next_property(&mut self, before: Kind<'t>, statement: &Statement) {
         match self.kind(statement) {
-            Kind::Property(key) if self.flat < 2 => {
-                self.part_entries();
-                self.cut(before, Edge::Next(key), APART);
-            }
+            Kind::Property(key) if self.flat < 2 => self.cut(before, Edge::Next(key), APART),
             _ => self.write("   "),
         }
     }

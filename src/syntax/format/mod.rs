@@ -1,6 +1,6 @@
 //! The one layout of a text.
 //!
-//! [`format`] writes the tree down again with the characters that the text has for names,
+//! [`format()`] writes the tree down again with the characters that the text has for names,
 //! numbers, strings and charts. What the layout decides: indentation, blanks, which statements
 //! share a line, columns of neighbouring lines. What stays the author's: comments, blank lines
 //! between groups (one of several), whether a short block stands on one line, which properties
