@@ -88,9 +88,10 @@ scene wrong {
     std::fs::write(folder.path().join("wrong.garment"), text).unwrap();
     let human = darzi(folder.path(), &["render", "wrong.garment", "-o", "x.png"]);
     assert_eq!(code(&human), 1, "{}", told(&human));
-    for place in ["wrong.garment:2:", "wrong.garment:3:", "wrong.garment:4:"] {
-        assert!(told(&human).contains(place), "{place} is missing in\n{}", told(&human));
-    }
+    let places = ["wrong.garment:2:", "wrong.garment:3:", "wrong.garment:4:"].map(|place| {
+        told(&human).find(place).unwrap_or_else(|| panic!("no {place} in the report"))
+    });
+    assert!(places.is_sorted(), "in the order of the text:\n{}", told(&human));
     assert!(told(&human).contains("`cotton`"), "the likely word is named");
     let json = darzi(folder.path(), &["check", "wrong.garment", "--message-format", "json"]);
     assert_eq!(code(&json), 1);
@@ -99,6 +100,7 @@ scene wrong {
         .map(|line| serde_json::from_str(line).expect("a line of JSON"))
         .collect();
     assert!(messages.len() >= 3);
+    assert!(messages.is_sorted_by_key(|message| message["labels"][0]["start"].as_u64()));
     for message in messages {
         assert!(message["code"].as_str().is_some_and(|c| c.starts_with('E')));
         assert!(message["labels"][0]["line"].as_u64().is_some_and(|n| n >= 1));

@@ -1,7 +1,7 @@
 //! From a file on disk to the garment a command works on.
 
 use super::{Input, MessageFormat, Stop};
-use crate::diagnostic::{Diagnostic, FileId, Texts, json, render, short};
+use crate::diagnostic::{Diagnostic, FileId, Texts, in_order, json, render, short};
 use crate::evaluate;
 use crate::garment::Garment;
 use crate::world::{Disk, World};
@@ -57,20 +57,29 @@ impl Project {
         (self.root, self.world.text(self.root))
     }
 
-    /// Evaluates the file and tells what is wrong with it.
+    /// Evaluates the file: its sound garments, and what there is to say of the others.
+    pub(super) fn evaluate(&mut self, input: &Input) -> (Vec<Garment>, Vec<Diagnostic>) {
+        let options = evaluate::Options { set: input.set.clone(), ..Default::default() };
+        evaluate::evaluate(&mut self.world, self.root, &options)
+    }
+
+    /// Puts messages of several stages in the order of the text and tells them.
     ///
     /// # Errors
-    /// [`Stop::Input`] if anything is.
-    pub(super) fn garments(&mut self, input: &Input) -> Result<Vec<Garment>, Stop> {
-        let options = evaluate::Options { set: input.set.clone(), ..Default::default() };
-        let (garments, diagnostics) = evaluate::evaluate(&mut self.world, self.root, &options);
+    /// [`Stop::Input`] if one of them is an error.
+    pub(super) fn tell_all(&self, mut diagnostics: Vec<Diagnostic>) -> Result<(), Stop> {
+        in_order(self.root, &mut diagnostics);
         self.tell(&diagnostics);
-        if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(garments) }
+        if diagnostics.iter().any(Diagnostic::is_error) { Err(Stop::Input) } else { Ok(()) }
     }
 
     /// The one garment that `input` names, or the only one there is.
+    ///
+    /// # Errors
+    /// [`Stop::Input`] if anything is wrong with the file.
     pub(super) fn garment(&mut self, input: &Input) -> Result<Garment, Stop> {
-        let mut garments = self.garments(input)?;
+        let (mut garments, diagnostics) = self.evaluate(input);
+        self.tell_all(diagnostics)?;
         let names: Vec<String> = garments.iter().map(|g| g.name.clone()).collect();
         let found = match &input.name {
             Some(name) => garments.iter().position(|g| g.name == *name).ok_or_else(|| {
