@@ -25,8 +25,8 @@ pub struct Figure<'a> {
     pub swatches: Swatches<'a>,
     /// Seams and free edges; the triangles of cloth are the first of all.
     pub selvages: Selvages,
-    /// Height of the floor, m.
-    pub floor: f32,
+    /// Height of the floor, m; none under what hangs high above it.
+    pub floor: Option<f32>,
     /// Whether somebody wears it.
     pub worn: bool,
 }
@@ -86,6 +86,9 @@ pub struct Panel {
 /// Seam partners nearer than this are drawn as one, m.
 const WELD: f64 = 4e-3;
 
+/// What hangs higher above the floor than this share of its height is shown without one.
+const HANGS: f32 = 0.06;
+
 /// Places further out than this are left out, m.
 const FAR: f64 = 1e3;
 
@@ -98,7 +101,7 @@ impl<'a> Figure<'a> {
             coats: Vec::new(),
             swatches: Swatches::of(&compiled.atlas),
             selvages: Selvages::default(),
-            floor: 0.0,
+            floor: None,
             worn: draped.surfaces.iter().any(|surface| surface.kind == SurfaceKind::Body),
         };
         figure.add_cloth(compiled, draped);
@@ -111,10 +114,15 @@ impl<'a> Figure<'a> {
                 figure.add_surface(surface, solid);
             }
         }
-        let used = figure.faces.iter().flat_map(|face| face.corners);
-        let lowest = used.map(|k| figure.corners[k as usize].place.y).fold(f32::INFINITY, f32::min);
         // Things stand on y = 0, or on the lowest point of those that reach below.
-        figure.floor = floor.unwrap_or_else(|| lowest.min(0.0));
+        figure.floor = floor.or_else(|| {
+            let heights = figure.places().into_iter().map(|place| place.y);
+            let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            });
+            let floor = low.min(0.0);
+            (low - floor < HANGS * (high - low)).then_some(floor)
+        });
         figure
     }
 

@@ -5,14 +5,15 @@
 //! figure hides the floor, and drawn out smoothly in between; the edges of the figure are no
 //! matter of it. The same numbers with the figure and without leave no grain where it does nothing.
 
-use super::Light3;
 use super::camera::Camera;
+use super::layout::Frame;
 use super::sample::Sampler;
 use super::trace::Tracer;
+use super::{Light3, Vector};
 use rayon::prelude::*;
 
 /// Pixels between the places that are looked at.
-const STEP: usize = 3;
+const STEP: u32 = 3;
 
 /// Paths at each.
 const PATHS: u32 = 32;
@@ -20,8 +21,11 @@ const PATHS: u32 = 32;
 /// Differences count against so many deviations of the grain.
 const TOLERANCE: f32 = 3.0;
 
-/// Light on the floor, at every few pixels of a view.
+/// Light on the floor about one view's figure, at every few pixels of the sheet. It reaches
+/// beyond the view's own frame as far as the shadow does.
 pub struct Floor {
+    /// Left and top on the sheet, pixels.
+    corner: [u32; 2],
     columns: usize,
     rows: usize,
     spots: Vec<Spot>,
@@ -43,34 +47,43 @@ const PAPER: Spot =
     Spot { arrives: Light3::new(1.0, 1.0, 1.0), empty: Light3::new(1.0, 1.0, 1.0), grain: 0.0 };
 
 impl Floor {
-    /// The floor of a picture of `size` pixels; `view` is its number on the sheet.
+    /// The floor about the view with the number `view` in its frame on a sheet of `size` pixels.
     pub fn traced<'a>(
         tracer: impl Fn() -> Tracer<'a> + Sync + Send,
         camera: &Camera,
         view: u32,
+        frame: &Frame,
         size: [u32; 2],
     ) -> Self {
-        let [columns, rows] = size.map(|n| (n as usize).div_ceil(STEP) + 1);
-        let spots = (0..columns * rows)
+        let [left, top, right, bottom] = shaded(&tracer().rim(), camera, frame, size);
+        let columns = right.saturating_sub(left).div_ceil(STEP) as usize + 1;
+        let rows = bottom.saturating_sub(top).div_ceil(STEP) as usize + 1;
+        let spots = (0..if left < right && top < bottom { columns * rows } else { 0 })
             .into_par_iter()
             .with_min_len(32)
             .map_init(tracer, |tracer, at| {
-                let place = [(at % columns) as u32, (at / columns) as u32];
-                let share = |k: usize| (place[k] * STEP as u32) as f32 / size[k] as f32;
+                let place =
+                    [left + (at % columns) as u32 * STEP, top + (at / columns) as u32 * STEP];
+                let share =
+                    |k: usize| (place[k] as f32 - frame[k] as f32) / frame[k + 2].max(1) as f32;
                 let ray = camera.ray(share(0), share(1));
                 let Some(at) = tracer.on_floor(&ray) else { return PAPER };
                 let open = tracer.openness(&at);
+                if open >= 1.0 {
+                    return PAPER;
+                }
                 let mut sum = Sum::default();
                 for path in 0..PATHS {
                     // Apart from the numbers of the pixels.
-                    let mut sampler = Sampler::new(!view, place, path, PATHS);
+                    let spot = place.map(|n| n / STEP);
+                    let mut sampler = Sampler::new(!view, spot, path, PATHS);
                     let (arrives, empty) = tracer.light_on_floor(&at, &mut sampler);
                     sum.add(arrives + (empty - arrives) * open, empty);
                 }
                 sum.mean()
             })
             .collect();
-        Floor { columns, rows, spots }
+        Floor { corner: [left, top], columns, rows, spots }
     }
 
     /// Takes the grain out.
@@ -118,8 +131,25 @@ impl Floor {
         self.spots[row * self.columns + column]
     }
 
-    /// What is left of the light at the middle of a pixel.
-    pub fn shadow(&self, x: usize, y: usize) -> Light3 {
+    /// Darkens the light on the whole sheet, row by row, where the figure shades its floor.
+    pub fn shade(&self, sheet: &mut [Light3], width: usize) {
+        if self.spots.is_empty() {
+            return;
+        }
+        let [left, top] = self.corner.map(|n| n as usize);
+        let high = (self.rows - 1) * STEP as usize;
+        let wide = ((self.columns - 1) * STEP as usize).min(width.saturating_sub(left));
+        sheet.par_chunks_mut(width.max(1)).skip(top).take(high).enumerate().for_each(
+            |(y, line)| {
+                for (x, light) in line.iter_mut().skip(left).take(wide).enumerate() {
+                    light.component_mul_assign(&self.shadow(x, y));
+                }
+            },
+        );
+    }
+
+    /// What is left of the light at the middle of a pixel, counted from the corner.
+    fn shadow(&self, x: usize, y: usize) -> Light3 {
         let [across, down] = [x, y].map(|n| (n as f32 + 0.5) / STEP as f32);
         let (column, row) = (across.floor(), down.floor());
         let (mix, fall) = (across - column, down - row);
@@ -131,6 +161,19 @@ impl Floor {
         let bottom = at(0, 1) * (1.0 - mix) + at(1, 1) * mix;
         top * (1.0 - fall) + bottom * fall
     }
+}
+
+/// The rectangle of the sheet, left, top, right, bottom, in which the rim of the shadow lies.
+fn shaded(rim: &[Vector], camera: &Camera, frame: &Frame, size: [u32; 2]) -> [u32; 4] {
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    for share in rim.iter().filter_map(|place| camera.picture(place)) {
+        for k in 0..2 {
+            let at = frame[k] as f32 + share[k] * frame[k + 2] as f32;
+            (low[k], high[k]) = (low[k].min(at), high[k].max(at));
+        }
+    }
+    let clipped = |place: f32, k: usize| place.clamp(0.0, size[k] as f32) as u32;
+    [clipped(low[0], 0), clipped(low[1], 1), clipped(high[0], 0), clipped(high[1], 1)]
 }
 
 impl Spot {

@@ -12,6 +12,7 @@ mod finish;
 mod floor;
 mod hierarchy;
 mod lamp;
+mod layout;
 mod pixel;
 mod sample;
 mod selvage;

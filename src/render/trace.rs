@@ -37,6 +37,12 @@ const LIFT: f32 = 4e-5;
 /// What the floor sends back of the light that it gets.
 const FLOOR: f32 = 0.62;
 
+/// Shadows on the floor run out at so many half extents of the figure.
+const SHADES: f32 = 1.9;
+
+/// The floor sends light back from so many half extents round the figure.
+const REACHES: f32 = 6.0;
+
 /// One path's mirrored light counts no more than this, against grain.
 const BRIGHTEST: f32 = 6.0;
 
@@ -48,10 +54,10 @@ pub struct Tracer<'a> {
     stack: Stack,
     bounces: u32,
     lift: f32,
-    /// Radius of the floor on which shadows fall, about this place, m.
+    /// The floor about this place, and half the extent of what stands there, m.
     round: (Vector, f32),
-    /// Whether there is a floor.
-    floor: bool,
+    /// Height of the floor, if there is one, m.
+    floor: Option<f32>,
 }
 
 impl<'a> Tracer<'a> {
@@ -69,15 +75,15 @@ impl<'a> Tracer<'a> {
             stack: Stack::new(),
             bounces,
             lift: LIFT * extent.max(0.25),
-            round: (middle, 6.0 * extent),
-            floor: true,
+            round: (middle, extent),
+            floor: set.figure.floor,
         }
     }
 
     /// The same without a floor.
     #[cfg(test)]
     pub fn floating(mut self) -> Self {
-        self.floor = false;
+        self.floor = None;
         self
     }
 
@@ -231,27 +237,43 @@ impl<'a> Tracer<'a> {
         (arrives, empty)
     }
 
-    /// 0 on the floor about the figure, 1 where shadows have run out, far away.
+    /// 0 on the floor about the figure, 1 where shadows have run out, farther away.
     pub fn openness(&self, at: &Vector) -> f32 {
         let off = at - self.round.0;
-        let away = (off.x * off.x + off.z * off.z).sqrt() / self.round.1;
-        let share = ((away - 0.55) / 0.45).clamp(0.0, 1.0);
+        let away = (off.x * off.x + off.z * off.z).sqrt() / (SHADES * self.round.1);
+        let share = ((away - 0.4) / 0.6).clamp(0.0, 1.0);
         share * share * (3.0 - 2.0 * share)
     }
 
-    /// Where the ray meets the floor, if it does within the round on which shadows fall.
+    /// The line on the floor at which shadows have run out; empty if there is no floor.
+    pub fn rim(&self) -> Vec<Vector> {
+        const POINTS: u32 = 64;
+        let Some(floor) = self.floor else { return Vec::new() };
+        let (middle, extent) = self.round;
+        (0..POINTS)
+            .map(|k| {
+                let (sin, cos) = libm::sincosf(k as f32 * 2.0 * PI / POINTS as f32);
+                let radius = SHADES * extent;
+                Vector::new(middle.x + radius * sin, floor, middle.z + radius * cos)
+            })
+            .collect()
+    }
+
+    /// Where the ray meets the floor, if it does not do so very far away.
     pub fn on_floor(&self, ray: &Ray) -> Option<Vector> {
-        if !self.floor || ray.direction.y > -1e-6 {
+        let floor = self.floor?;
+        if ray.direction.y > -1e-6 {
             return None;
         }
-        let distance = (self.set.figure.floor - ray.origin.y) / ray.direction.y;
+        let distance = (floor - ray.origin.y) / ray.direction.y;
         if distance <= 0.0 {
             return None;
         }
         let mut at = ray.origin + ray.direction * distance;
-        at.y = self.set.figure.floor;
+        at.y = floor;
         let off = at - self.round.0;
-        (off.x * off.x + off.z * off.z < self.round.1 * self.round.1).then_some(at)
+        let reach = REACHES * self.round.1;
+        (off.x * off.x + off.z * off.z < reach * reach).then_some(at)
     }
 
     fn nearest(&mut self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
