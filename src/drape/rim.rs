@@ -66,7 +66,13 @@ impl Rim {
     }
 
     /// Sets the stiffness to that of the loose elements and adds their forces.
-    pub fn assemble(&mut self, cloth: &Cloth, x: &[Vector3<f64>], scale: f64, f: &mut [Vector3<f64>]) {
+    pub fn assemble(
+        &mut self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        scale: f64,
+        f: &mut [Vector3<f64>],
+    ) {
         elastic::assemble(cloth, &self.knots, x, scale, &mut self.matrix, f);
     }
 
@@ -144,8 +150,9 @@ pub fn place(slot: usize) -> usize {
 }
 
 fn dot(a: &[Lane], b: &[Lane]) -> f64 {
-    let products = a.iter().zip(b).map(|(a, b)| {
-        (0..3).map(|l| f64::from(a[l]) * f64::from(b[l])).sum::<f64>()
-    });
+    let products = a
+        .iter()
+        .zip(b)
+        .map(|(a, b)| (0..3).map(|l| f64::from(a[l]) * f64::from(b[l])).sum::<f64>());
     products.sum()
 }

@@ -170,10 +170,8 @@ impl System {
             Vec::new()
         } else {
             let forces = cut(&mut self.q, start, &ends);
-            let lists = split(
-                &mut stiff[start * STIFF..],
-                ends.iter().map(|e| (e - start) * STIFF),
-            );
+            let lists =
+                split(&mut stiff[start * STIFF..], ends.iter().map(|e| (e - start) * STIFF));
             let strips = self.strips.iter_mut();
             shares
                 .iter()
@@ -244,10 +242,8 @@ impl System {
         let loose = self.grid.layout.loose * BLOCK;
         diagonal[loose..].copy_from_slice(&self.firm[loose..]);
         if !self.grid.groups.is_empty() {
-            let lists = split(
-                &mut diagonal[start * BLOCK..],
-                ends.iter().map(|e| (e - start) * BLOCK),
-            );
+            let lists =
+                split(&mut diagonal[start * BLOCK..], ends.iter().map(|e| (e - start) * BLOCK));
             let (grid, own, free) = (&self.grid, &self.firm[..], &self.free[..]);
             let parts = shares.iter().zip(lists).map(|(groups, diagonal)| Diagonal {
                 grid,
@@ -502,11 +498,7 @@ impl System {
         }
         let solution = self.grid.layout.slot.iter().map(|slot| {
             let s = *slot as usize;
-            Vector3::new(
-                f64::from(self.x[0][s]),
-                f64::from(self.x[1][s]),
-                f64::from(self.x[2][s]),
-            )
+            Vector3::new(f64::from(self.x[0][s]), f64::from(self.x[1][s]), f64::from(self.x[2][s]))
         });
         (solution.collect(), taken)
     }

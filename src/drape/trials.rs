@@ -2,8 +2,8 @@
 
 use super::skin::Skin;
 use super::step::{Manner, Workshop};
-use super::system::Aim;
 use super::swatch::{Ball, Nothing, Slope, fabric, irregular, rectangles};
+use super::system::Aim;
 use super::weld::Weld;
 use crate::garment::seam::PinTarget;
 use crate::mesh::compiled::{Compiled, MeshPin};

@@ -93,13 +93,7 @@ fn way<S: Simd>(s: S, x: [&[f64]; 3], from: usize, to: usize, rest: f64) -> (V<S
 impl<S: Simd> Loading<'_, '_, S> {
     /// Force on the first end of an edge, and its stiffness as m and b.
     #[inline(always)]
-    fn edge(
-        &self,
-        s: S,
-        (from, to): (usize, usize),
-        rest: f64,
-        k: F<S>,
-    ) -> (V<S>, V<S>, F<S>) {
+    fn edge(&self, s: S, (from, to): (usize, usize), rest: f64, k: F<S>) -> (V<S>, V<S>, F<S>) {
         let (d, more) = way(s, self.x, from, to, rest);
         let (one, tiny) = (F::splat(s, 1.0), F::splat(s, 1e-12));
         let length = d.dot(d).max(tiny).sqrt();
@@ -109,9 +103,8 @@ impl<S: Simd> Loading<'_, '_, S> {
         let turn = V::load(s, self.slide, to) - V::load(s, self.slide, from);
         let along = turn.dot(n);
         let lateral = along.fnma(along, turn.dot(turn)).over(length * length);
-        let least = (lateral * F::splat(s, 0.5))
-            .max(F::splat(s, SLACK[1]))
-            .min(F::splat(s, SLACK[0]));
+        let least =
+            (lateral * F::splat(s, 0.5)).max(F::splat(s, SLACK[1])).min(F::splat(s, SLACK[0]));
         let side = stretch.over(length).max(least).min(one);
         let full = k * self.scale;
         let m = n.scale((full * (one - side)).max(F::splat(s, 0.0)).sqrt());
@@ -147,8 +140,22 @@ impl<S: Simd> Law<S> for Loading<'_, '_, S> {
             let nothing = F::splat(s, 0.0);
             let firm = half * self.scale;
             let numbers = [
-                m_weft.0, m_weft.1, m_weft.2, b_weft, m_warp.0, m_warp.1, m_warp.2, b_warp, m1.0,
-                m1.1, m1.2, m2.0, m2.1, m2.2, firm.max(nothing), (-firm).max(nothing),
+                m_weft.0,
+                m_weft.1,
+                m_weft.2,
+                b_weft,
+                m_warp.0,
+                m_warp.1,
+                m_warp.2,
+                b_warp,
+                m1.0,
+                m1.1,
+                m1.2,
+                m2.0,
+                m2.1,
+                m2.2,
+                firm.max(nothing),
+                (-firm).max(nothing),
             ];
             let list = &mut self.stiff[here / LANES * LANES * STIFF + here % LANES..];
             for (k, number) in numbers.into_iter().enumerate() {

@@ -245,11 +245,7 @@ impl Grid {
 /// Slots below which one thread is quicker than two.
 const SMALL: usize = 4096;
 
-fn share<T>(
-    items: &[T],
-    slots: usize,
-    size: impl Fn(&T) -> usize,
-) -> Vec<std::ops::Range<usize>> {
+fn share<T>(items: &[T], slots: usize, size: impl Fn(&T) -> usize) -> Vec<std::ops::Range<usize>> {
     let parts = rayon::current_num_threads().min(slots / SMALL).max(1);
     let mut ranges = Vec::with_capacity(parts);
     let (mut start, mut so_far) = (0, 0);

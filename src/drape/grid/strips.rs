@@ -99,7 +99,8 @@ impl Strips {
                 let here = LANES + column;
                 let left = here - 1;
                 let load = |strip: &Strip, at: usize| V::load(s, read(strip), at);
-                let sum = load(&self.own, here) + load(&self.right, left)
+                let sum = load(&self.own, here)
+                    + load(&self.right, left)
                     + (load(&below[0], here) + load(&below[1], left))
                     + (load(&self.bend, left) + load(&self.bend, here + 1))
                     + (load(&self.rising[(r + 2) % 3], here)

@@ -48,11 +48,7 @@ impl Threads {
     }
 
     /// The lists of warp factors for parts of the blocks of columns, to be filled.
-    pub fn warp_parts(
-        &mut self,
-        grid: &Grid,
-        parts: &[std::ops::Range<usize>],
-    ) -> Vec<&mut [f32]> {
+    pub fn warp_parts(&mut self, grid: &Grid, parts: &[std::ops::Range<usize>]) -> Vec<&mut [f32]> {
         let ends = parts.iter().map(|p| {
             let blocks = &grid.blocks[..p.end];
             blocks.last().map_or(0, |b| b.first / LANES + b.rows) * LINK * LANES

@@ -113,4 +113,3 @@ impl Extra for Term {
         total
     }
 }
-

@@ -159,8 +159,7 @@ impl Tree {
             return self.below(*panel, items);
         }
         let size = groups.iter().map(|g| g.1.len()).sum::<usize>() as u32;
-        let node =
-            Node { range: [0; 2], leaf: false, panel: u32::MAX, plane: [0.0; 4], size };
+        let node = Node { range: [0; 2], leaf: false, panel: u32::MAX, plane: [0.0; 4], size };
         let own = self.push(node);
         let (left, right) = groups.split_at_mut(groups.len() / 2);
         let children = [self.above(left), self.above(right)];
@@ -188,9 +187,7 @@ impl Tree {
             return own;
         }
         let axis = usize::from(middles[3] - middles[1] > middles[2] - middles[0]);
-        items.sort_by(|a, b| {
-            a.middle[axis].total_cmp(&b.middle[axis]).then(a.face.cmp(&b.face))
-        });
+        items.sort_by(|a, b| a.middle[axis].total_cmp(&b.middle[axis]).then(a.face.cmp(&b.face)));
         // Halves of the plane rather than of the number keep the pieces square; the two halves
         // of a cell have one middle and stay together.
         let half = 0.5 * (middles[axis] + middles[axis + 2]);
@@ -246,9 +243,8 @@ impl Tree {
             return false;
         }
         let slack = 1e-6;
-        let borders = (0..2).all(|k| {
-            p.plane[k] <= q.plane[k + 2] + slack && q.plane[k] <= p.plane[k + 2] + slack
-        });
+        let borders = (0..2)
+            .all(|k| p.plane[k] <= q.plane[k + 2] + slack && q.plane[k] <= p.plane[k + 2] + slack);
         borders && self.normals[a].join(&self.normals[b]).is_narrow()
     }
 
@@ -280,10 +276,7 @@ impl Tree {
 
     /// Calls `found` for all pairs of leaves that may meet, with the faces of both, and gives
     /// what it found in an order that does not depend on threads.
-    pub fn pairs<T: Send>(
-        &self,
-        found: impl Fn(&[u32], &[u32], &mut Vec<T>) + Sync,
-    ) -> Vec<T> {
+    pub fn pairs<T: Send>(&self, found: impl Fn(&[u32], &[u32], &mut Vec<T>) + Sync) -> Vec<T> {
         if self.nodes.is_empty() {
             return Vec::new();
         }
