@@ -9,5 +9,5 @@ pub fn paper(x: f32, y: f32) -> Light3 {
     let (across, down) = ((x - 0.5) * 0.75, (y - 0.60) * 1.05);
     let away = across * across + down * down;
     let glow = 1.0 / (1.0 + 0.85 * away);
-    Light3::new(0.800, 0.803, 0.808) * glow
+    Light3::new(0.690, 0.692, 0.696) * glow
 }

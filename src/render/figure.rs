@@ -1,9 +1,11 @@
 //! What stands in the studio: cloth, bodies and solids as curved triangles with their coats.
 
 use super::finish::Look;
+use super::rim;
 use super::selvage::Selvages;
 use super::slub::Slubs;
 use super::swatch::Swatches;
+use super::wood::Wood;
 use super::{Light3, Vector, tone};
 use crate::body::surface::{Surface, SurfaceKind};
 use crate::drape::draped::Draped;
@@ -63,8 +65,10 @@ pub enum Coat {
         /// How light leaves it.
         look: Look,
     },
-    /// Planed wood, its grain along the x axis of the world.
+    /// Planed wood.
     Wood {
+        /// How its grain runs.
+        wood: Wood,
         /// How light leaves it.
         look: Look,
     },
@@ -172,6 +176,21 @@ impl<'a> Figure<'a> {
                 .iter()
                 .map(|face| Face { corners: face.corners.map(|k| k + first), coat: face.coat }),
         );
+        let mut sewn = vec![false; places.len()];
+        for k in compiled.seams.iter().flat_map(|seam| &seam.pairs).flatten() {
+            if let Some(mark) = sewn.get_mut(*k as usize) {
+                *mark = true;
+            }
+        }
+        // Only where there is cloth to be turned.
+        let mut worn = vec![false; places.len()];
+        for k in faces.iter().flat_map(|face| face.corners) {
+            worn[k as usize] = true;
+        }
+        for (sewn, worn) in sewn.iter_mut().zip(worn) {
+            *sewn |= !worn;
+        }
+        rim::turn(compiled, &sewn, first, &mut self.corners, &mut self.faces);
     }
 
     fn panel(&self, panel: &MeshPanel, compiled: &Compiled) -> Panel {
@@ -195,16 +214,12 @@ impl<'a> Figure<'a> {
 
     fn add_surface(&mut self, surface: &Surface, solid: Option<&Solid>) {
         let coat = self.coats.len() as u32;
-        let wooden = matches!(
-            solid.map(|solid| &solid.shape),
-            Some(Shape::Table { .. } | Shape::Box { .. } | Shape::Cylinder { .. })
-        );
-        self.coats.push(match surface.kind {
-            SurfaceKind::Body => {
-                Coat::Plain { colour: Light3::new(0.64, 0.60, 0.545), look: Look::of_body() }
+        self.coats.push(match (surface.kind, solid.and_then(Wood::of)) {
+            (SurfaceKind::Body, _) => {
+                Coat::Plain { colour: Light3::new(0.60, 0.555, 0.495), look: Look::of_body() }
             }
-            SurfaceKind::Solid if wooden => Coat::Wood { look: Look::of_solid() },
-            SurfaceKind::Solid => {
+            (SurfaceKind::Solid, Some(wood)) => Coat::Wood { wood, look: Look::of_solid() },
+            (SurfaceKind::Solid, None) => {
                 Coat::Plain { colour: Light3::new(0.50, 0.485, 0.465), look: Look::of_solid() }
             }
         });

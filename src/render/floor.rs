@@ -13,10 +13,10 @@ use super::{Light3, Vector};
 use rayon::prelude::*;
 
 /// Pixels between the places that are looked at.
-const STEP: u32 = 3;
+const STEP: u32 = 2;
 
 /// Paths at each.
-const PATHS: u32 = 32;
+const PATHS: u32 = 24;
 
 /// Differences count against so many deviations of the grain.
 const TOLERANCE: f32 = 3.0;
@@ -40,11 +40,17 @@ struct Spot {
     empty: Light3,
     /// Variance of the mean of the first over the second.
     grain: f32,
+    /// Whether it says anything: not under a foot, where nobody looks and no light is.
+    known: bool,
 }
 
 /// The paper behind, which nothing shades.
-const PAPER: Spot =
-    Spot { arrives: Light3::new(1.0, 1.0, 1.0), empty: Light3::new(1.0, 1.0, 1.0), grain: 0.0 };
+const PAPER: Spot = Spot {
+    arrives: Light3::new(1.0, 1.0, 1.0),
+    empty: Light3::new(1.0, 1.0, 1.0),
+    grain: 0.0,
+    known: true,
+};
 
 impl Floor {
     /// The floor about the view with the number `view` in its frame on a sheet of `size` pixels.
@@ -71,6 +77,9 @@ impl Floor {
                 let open = tracer.openness(&at);
                 if open >= 1.0 {
                     return PAPER;
+                }
+                if tracer.covered(&at) {
+                    return Spot { known: false, ..PAPER };
                 }
                 let mut sum = Sum::default();
                 for path in 0..PATHS {
@@ -103,25 +112,35 @@ impl Floor {
         const KERNEL: [f32; 3] = [0.25, 0.5, 0.25];
         let here = self.spots[at];
         let (x, y) = ((at % self.columns) as i64, (at / self.columns) as i64);
-        let doubt = 1.0 / (TOLERANCE * TOLERANCE * here.grain + 1e-6);
-        let mut sum = Spot { arrives: Light3::zeros(), empty: Light3::zeros(), grain: 0.0 };
-        let mut weight = 0.0;
+        // What is not known takes after its neighbours, whatever they are like; and between
+        // nearest neighbours nothing is sharper than the grid can show.
+        let sharp = here.known && step > 1;
+        let doubt = if sharp { 1.0 / (TOLERANCE * TOLERANCE * here.grain + 1e-6) } else { 0.0 };
+        let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
+        let (mut grain, mut weight) = (0.0, 0.0);
         for (dy, row) in KERNEL.iter().enumerate() {
             for (dx, column) in KERNEL.iter().enumerate() {
                 let (px, py) = (x + (dx as i64 - 1) * step, y + (dy as i64 - 1) * step);
                 let tap = self.spot(px, py);
+                if !tap.known {
+                    continue;
+                }
                 let off = here.shade() - tap.shade();
                 let w = row * column / (1.0 + off * off * doubt);
-                sum.arrives += tap.arrives * w;
-                sum.empty += tap.empty * w;
-                sum.grain += tap.grain * w * w;
+                arrives += tap.arrives * w;
+                empty += tap.empty * w;
+                grain += tap.grain * w * w;
                 weight += w;
             }
         }
+        if weight <= 0.0 {
+            return here;
+        }
         Spot {
-            arrives: sum.arrives / weight,
-            empty: sum.empty / weight,
-            grain: sum.grain / (weight * weight),
+            arrives: arrives / weight,
+            empty: empty / weight,
+            grain: grain / (weight * weight),
+            known: true,
         }
     }
 
@@ -153,13 +172,18 @@ impl Floor {
         let [across, down] = [x, y].map(|n| (n as f32 + 0.5) / STEP as f32);
         let (column, row) = (across.floor(), down.floor());
         let (mix, fall) = (across - column, down - row);
-        let at = |dx: i64, dy: i64| {
-            let spot = self.spot(column as i64 + dx, row as i64 + dy);
-            spot.arrives.zip_map(&spot.empty, |a, e| a / e.max(1e-6))
-        };
-        let top = at(0, 0) * (1.0 - mix) + at(1, 0) * mix;
-        let bottom = at(0, 1) * (1.0 - mix) + at(1, 1) * mix;
-        top * (1.0 - fall) + bottom * fall
+        let (mut left, mut weight) = (Light3::zeros(), 0.0);
+        for (dx, wx) in [(0, 1.0 - mix), (1, mix)] {
+            for (dy, wy) in [(0, 1.0 - fall), (1, fall)] {
+                let spot = self.spot(column as i64 + dx, row as i64 + dy);
+                if spot.known {
+                    let w = wx * wy;
+                    left += spot.arrives.zip_map(&spot.empty, |a, e| a / e.max(1e-6)) * w;
+                    weight += w;
+                }
+            }
+        }
+        if weight > 1e-6 { left / weight } else { Light3::repeat(1.0) }
     }
 }
 
@@ -207,6 +231,7 @@ impl Sum {
             arrives: self.arrives / count,
             empty: self.empty / count,
             grain: (self.square / count - shade * shade).max(0.0) / count,
+            known: true,
         }
     }
 }

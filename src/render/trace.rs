@@ -40,11 +40,17 @@ const FLOOR: f32 = 0.62;
 /// Shadows on the floor run out at so many half extents of the figure.
 const SHADES: f32 = 1.9;
 
+/// What is nearer to the floor than so many half extents stands on it.
+const STANDS: f32 = 0.008;
+
 /// The floor sends light back from so many half extents round the figure.
 const REACHES: f32 = 6.0;
 
 /// One path's mirrored light counts no more than this, against grain.
 const BRIGHTEST: f32 = 6.0;
+
+/// What comes mirrored from other surfaces counts no more than this.
+const GLINT: f32 = 0.8;
 
 /// One worker's way through the set.
 #[derive(Debug)]
@@ -119,7 +125,8 @@ impl<'a> Tracer<'a> {
         matte += light;
         if !through {
             let shone = place.look.shine(&place.colour, &place.threads, &eye, &direction);
-            shine += light.component_mul(&shone) * (PI / (1.0 - passes));
+            let glint = light.component_mul(&shone) * (PI / (1.0 - passes));
+            shine += glint.map(|c| c.min(GLINT));
         }
         Seeing {
             colour: place.colour,
@@ -204,7 +211,7 @@ impl<'a> Tracer<'a> {
     fn floor_light(&mut self, at: Vector, sampler: &mut Sampler) -> Light3 {
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let mut light = self.all_round();
-        if let Some(arrival) = self.lighting.choose(&at, pair, choice, |d| d.y.max(0.0)) {
+        if let Some(arrival) = self.lighting.choose_for_floor(&at, pair, choice) {
             let ray = Ray {
                 origin: at + Vector::y() * self.lift,
                 direction: arrival.direction,
@@ -222,7 +229,7 @@ impl<'a> Tracer<'a> {
         let origin = at + Vector::y() * self.lift;
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
-        if let Some(arrival) = self.lighting.choose(at, pair, choice, |d| d.y.max(0.0)) {
+        if let Some(arrival) = self.lighting.choose_for_floor(at, pair, choice) {
             let light = arrival.light * (arrival.direction.y.max(0.0) / PI);
             empty += light;
             let ray = Ray { origin, direction: arrival.direction, reach: arrival.distance };
@@ -243,6 +250,15 @@ impl<'a> Tracer<'a> {
         let away = (off.x * off.x + off.z * off.z).sqrt() / (SHADES * self.round.1);
         let share = ((away - 0.4) / 0.6).clamp(0.0, 1.0);
         share * share * (3.0 - 2.0 * share)
+    }
+
+    /// Whether something stands on the floor there, or reaches into it.
+    pub fn covered(&mut self, at: &Vector) -> bool {
+        let origin = at + Vector::y() * self.lift;
+        let ray = Ray { origin, direction: Vector::y(), reach: f32::INFINITY };
+        let set = self.set;
+        let hit = set.hierarchy.nearest(&ray, &mut self.stack, |_, _, _| true);
+        hit.is_some_and(|hit| hit.distance < STANDS * self.round.1 || set.leaves_body(&hit, &ray))
     }
 
     /// The line on the floor at which shadows have run out; empty if there is no floor.
@@ -282,7 +298,8 @@ impl<'a> Tracer<'a> {
             return set.hierarchy.nearest(ray, &mut self.stack, |_, _, _| true);
         }
         let [choice, _] = sampler.pair();
-        set.hierarchy.nearest(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, choice))
+        set.hierarchy
+            .nearest(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
     }
 
     fn blocked(&mut self, ray: &Ray, sampler: &mut Sampler) -> bool {
@@ -291,7 +308,8 @@ impl<'a> Tracer<'a> {
             return set.hierarchy.blocked(ray, &mut self.stack, |_, _, _| true);
         }
         let [choice, _] = sampler.pair();
-        set.hierarchy.blocked(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, choice))
+        set.hierarchy
+            .blocked(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
     }
 
     /// A start for a ray off the surface, on the side to which it goes.
