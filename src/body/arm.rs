@@ -8,7 +8,7 @@ use super::part::{Bounds, Bump, Part, join};
 use nalgebra::{Point3, Vector3};
 
 /// How far from upright the arm hangs, if the trunk leaves it room, rad.
-const HANGS: f64 = 0.45;
+const HANGS: f64 = 0.80;
 
 /// How far the hand is turned so that its back shows in front, rad.
 const TURNED: f64 = 0.30;

@@ -86,7 +86,7 @@ pub(super) fn dress(
     }
     let start = Instant::now();
     let compile = |coarsen: f64| {
-        let options = mesh::Options { cell: work.resolution, coarsen };
+        let options = mesh::Options { cell: work.resolution, coarsen, atlas: coarsen <= 1.0 };
         mesh::compile(garment, &options)
     };
     let compiled = compile(1.0).map_err(|diagnostics| {

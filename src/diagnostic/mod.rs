@@ -1,15 +1,17 @@
 //! What darzi has to say about a text: coded messages with their places.
 //!
-//! A [`Diagnostic`] is data. It is shown by [`render`] (a report for people, through miette)
-//! or by [`json`] (a line of JSON for programs). Messages state the fact, labels say where,
+//! A [`Diagnostic`] is data. It is shown by [`render`] (a report for people, through miette), by
+//! [`short`] (one line each) or by [`json`] (a line of JSON for programs). Messages state the fact, labels say where,
 //! the help says what to type.
 
 use serde::{Deserialize, Serialize};
 
 pub mod codes;
 pub mod json;
+pub mod page;
 pub mod place;
 pub mod render;
+pub mod short;
 pub mod spelling;
 
 /// The texts that diagnostics speak of.
@@ -121,5 +123,39 @@ impl Diagnostic {
     /// Whether it is an error.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
+    }
+}
+
+/// Puts messages in the order of the text, by the start of their main place; those of `root`
+/// come first, then those of the files it uses in the order in which they were opened. Messages
+/// without a place stand before all others: they speak of the call or of the machine. Messages
+/// of one place keep their order.
+pub fn in_order(root: FileId, told: &mut [Diagnostic]) {
+    told.sort_by_key(|diagnostic| {
+        let main = diagnostic.labels.first();
+        main.map(|Label { span, .. }| (span.file != root, span.file, span.start))
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_follow_the_text_and_the_file_in_hand_comes_first() {
+        let told = |name: &str, file: u32, start: usize| {
+            Diagnostic::new(name, "").at(Span::new(FileId(file), start, start + 1), "")
+        };
+        let mut all = vec![
+            told("E0204", 0, 9),
+            told("E0205", 2, 30),
+            told("E0206", 2, 5).at(Span::new(FileId(0), 0, 1), "a further place does not count"),
+            told("E0207", 1, 5),
+            told("E0208", 2, 5),
+            Diagnostic::new("E0209", "without a place"),
+        ];
+        in_order(FileId(2), &mut all);
+        let codes: Vec<&str> = all.iter().map(|told| told.code.as_str()).collect();
+        assert_eq!(codes, ["E0209", "E0206", "E0208", "E0205", "E0204", "E0207"]);
     }
 }

@@ -1,9 +1,9 @@
 //! Trials of the solver against what is known in closed form.
 
-use super::conjugate::Aim;
 use super::skin::Skin;
 use super::step::{Manner, Workshop};
 use super::swatch::{Ball, Nothing, Slope, fabric, irregular, rectangles};
+use super::system::Aim;
 use super::weld::Weld;
 use crate::garment::seam::PinTarget;
 use crate::mesh::compiled::{Compiled, MeshPin};

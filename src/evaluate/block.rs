@@ -1,11 +1,12 @@
 //! Blocks: declarations hoisted, loops and choices unrolled, copies merged.
 
 use super::Evaluator;
-use super::fields::{Arg, Fields, Phrase, Written, bare};
+use super::fields::{Arg, Fields, Phrase, Spoiled, Written, bare};
 use super::item::{ItemId, declares};
+use super::poison::unread;
 use super::scope::{ScopeId, What};
 use super::value::Value;
-use super::words::{self, Kind, Word, vocabulary};
+use super::words::{self, Kind, vocabulary};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Block, Expr, Item, Name, Statement, StatementKind};
 
@@ -155,11 +156,12 @@ impl<'t> Evaluator<'t> {
         merged: &Merged<'t>,
         scope: ScopeId,
     ) -> Fields<'t> {
-        let mut phrases = Vec::new();
         self.settings.insert(scope, merged.settings.clone());
-        self.walk(kind, &merged.statements, scope, scope, &mut phrases);
-        self.once(&phrases);
-        Fields { kind, span, title, scope, phrases }
+        let (phrases, spoiled) = (Vec::new(), Vec::new());
+        let mut fields = Fields { kind, span, title, scope, phrases, spoiled };
+        self.walk(&merged.statements, scope, &mut fields);
+        self.once(&fields.phrases);
+        fields
     }
 
     /// Reads a block that stands by itself, such as `drape { … }`.
@@ -196,26 +198,21 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// `inner` is the scope of these statements; items and labels are known in `outer`, the
-    /// scope of the whole block.
-    fn walk(
-        &mut self,
-        kind: Kind,
-        statements: &[&'t Statement],
-        inner: ScopeId,
-        outer: ScopeId,
-        out: &mut Vec<Phrase<'t>>,
-    ) {
+    /// Reads statements of a block into its fields. `inner` is the scope of these statements;
+    /// items and labels are known in the scope of the whole block.
+    fn walk(&mut self, statements: &[&'t Statement], inner: ScopeId, out: &mut Fields<'t>) {
         // First all names, so that they may be declared in any order.
         let mut matched: Vec<Option<Phrase<'t>>> = Vec::with_capacity(statements.len());
         for statement in statements {
-            let phrase = self.declare_statement(kind, statement, inner, outer);
-            matched.push(phrase);
+            matched.push(self.declare_statement(statement, inner, out));
         }
         for (statement, phrase) in statements.iter().zip(matched) {
             match &statement.kind {
                 StatementKind::For { name, over, body } => {
-                    let turns = self.turns_of(over, inner);
+                    let Some(turns) = self.turns_of(over, inner) else {
+                        self.poison(&body.statements, out);
+                        continue;
+                    };
                     let lines: Vec<&'t Statement> = body.statements.iter().collect();
                     for value in turns {
                         self.turns += 1;
@@ -231,7 +228,7 @@ impl<'t> Evaluator<'t> {
                         }
                         let turn = self.new_scope(Some(inner));
                         self.declare(turn, &name.text, name.span, turn, What::Given(value));
-                        self.walk(kind, &lines, turn, outer, out);
+                        self.walk(&lines, turn, out);
                     }
                 }
                 StatementKind::If { condition, then, otherwise } => {
@@ -239,15 +236,20 @@ impl<'t> Evaluator<'t> {
                     let block = match self.condition(arg) {
                         Some(true) => Some(then),
                         Some(false) => otherwise.as_ref(),
-                        None => None,
+                        None => {
+                            for block in [Some(then), otherwise.as_ref()].into_iter().flatten() {
+                                self.poison(&block.statements, out);
+                            }
+                            None
+                        }
                     };
                     if let Some(block) = block {
                         let lines: Vec<&'t Statement> = block.statements.iter().collect();
                         let branch = self.new_scope(Some(inner));
-                        self.walk(kind, &lines, branch, outer, out);
+                        self.walk(&lines, branch, out);
                     }
                 }
-                _ => out.extend(phrase),
+                _ => out.phrases.extend(phrase),
             }
         }
     }
@@ -275,11 +277,11 @@ impl<'t> Evaluator<'t> {
         Some((&asked.value, block))
     }
 
-    /// The values a loop goes through.
-    fn turns_of(&mut self, over: &'t Expr, scope: ScopeId) -> Vec<Value> {
+    /// The values a loop goes through; none where that is not known.
+    fn turns_of(&mut self, over: &'t Expr, scope: ScopeId) -> Option<Vec<Value>> {
         match self.eval(over, scope) {
-            Value::Poison => Vec::new(),
-            Value::List(values) => values,
+            Value::Poison => None,
+            Value::List(values) => Some(values),
             Value::Range(from, to)
                 if from.dimension.is_number()
                     && to.dimension.is_number()
@@ -287,7 +289,7 @@ impl<'t> Evaluator<'t> {
                     && to.value.fract() == 0.0 =>
             {
                 let count = (to.value - from.value + 1.0).clamp(0.0, (TURNS + 1) as f64) as usize;
-                (0..count).map(|i| Value::number(from.value + i as f64)).collect()
+                Some((0..count).map(|i| Value::number(from.value + i as f64)).collect())
             }
             other => {
                 let found = other.describe(|id| self.item(id).kind);
@@ -296,18 +298,20 @@ impl<'t> Evaluator<'t> {
                         .at(over.span, "a range of whole numbers or a list is wanted")
                         .help("such as `1..6` or `[2cm, 5cm]`"),
                 );
-                Vec::new()
+                None
             }
         }
     }
 
+    /// Makes the names of a statement known and matches it against the table. What cannot be
+    /// used is told and noted as spoiled.
     fn declare_statement(
         &mut self,
-        kind: Kind,
         statement: &'t Statement,
         inner: ScopeId,
-        outer: ScopeId,
+        out: &mut Fields<'t>,
     ) -> Option<Phrase<'t>> {
+        let (kind, outer) = (out.kind, out.scope);
         match &statement.kind {
             StatementKind::Let { name, value } => {
                 let what = self.fitted(outer, &name.text).unwrap_or(What::Let(value));
@@ -356,7 +360,7 @@ impl<'t> Evaluator<'t> {
                         block: block.as_ref(),
                         scope: inner,
                     };
-                    return self.match_phrase(word, written);
+                    return self.match_phrase(word, written).or_else(|| out.spoil(word, None));
                 }
                 let action = labelled(phrase).filter(|_| drawing.is_empty());
                 if let Some(name) = action {
@@ -378,7 +382,7 @@ impl<'t> Evaluator<'t> {
                         if kind != Kind::Outline && !round {
                             self.declare(outer, &key.text, key.span, inner, What::Label);
                         }
-                        return matched;
+                        return matched.or_else(|| out.spoil(word, Some(key)));
                     }
                 }
                 if let Some(word) = table.rows {
@@ -390,14 +394,22 @@ impl<'t> Evaluator<'t> {
                         block: block.as_ref(),
                         scope: inner,
                     };
-                    return self.match_phrase(word, written);
+                    return self.match_phrase(word, written).or_else(|| out.spoil(word, None));
                 }
-                self.tell_unknown_property(kind, key, action.filter(|_| phrase.len() > 1));
+                let action = action.filter(|_| phrase.len() > 1);
+                let word = if unread(phrase) {
+                    None
+                } else {
+                    self.tell_unknown_property(kind, key, action)
+                };
+                out.spoiled.push(Spoiled { word, label: Some(key) });
                 None
             }
             StatementKind::Line { word: name, phrase, block } => {
                 let Some(word) = vocabulary(kind).find(&name.text, false) else {
-                    self.tell_unknown_line(kind, name);
+                    let word =
+                        if unread(phrase) { None } else { self.tell_unknown_line(kind, name) };
+                    self.poison_line(word, phrase, out);
                     return None;
                 };
                 let written = Written {
@@ -408,103 +420,22 @@ impl<'t> Evaluator<'t> {
                     block: block.as_ref(),
                     scope: inner,
                 };
-                let matched = self.match_phrase(word, written)?;
-                if word.name == "fit" {
-                    if let Some(name) = matched.head.first().and_then(|expr| bare(expr)) {
+                let mut matched = self.match_phrase(word, written);
+                if let (Some(found), true) = (&matched, word.name == "fit") {
+                    if let Some(name) = found.head.first().and_then(|expr| bare(expr)) {
                         let what = self.fitted(outer, &name.text);
                         let what = what.unwrap_or(What::Given(Value::Poison));
                         self.declare(inner, &name.text, name.span, inner, what);
                     }
                 }
-                match word.block {
-                    Some(item_kind) if declares(word.form) => {
-                        self.declare_item(outer, item_kind, matched)
-                    }
-                    _ => Some(matched),
+                if let (Some(item_kind), true) = (word.block, declares(word.form)) {
+                    matched = matched.and_then(|found| self.declare_item(outer, item_kind, found));
                 }
+                if matched.is_none() {
+                    self.poison_line(Some(word), phrase, out);
+                }
+                matched
             }
         }
     }
-
-    fn tell_unknown_property(&mut self, kind: Kind, key: &Name, action: Option<&Name>) {
-        let table = vocabulary(kind);
-        if let Some(word) = table.find(&key.text, false) {
-            self.tell(
-                Diagnostic::new("E0207", format!("`{}` takes no colon", key.text))
-                    .at(key.span, "here")
-                    .help(word.usage()),
-            );
-            return;
-        }
-        if let Some(action) = action {
-            // `shaping: pleet on …`: the label may be any name, the word after it is wrong; unless
-            // the label itself is nearly a property of the block.
-            let near = crate::diagnostic::spelling::nearest(
-                &key.text,
-                table.words.iter().map(|word| word.name),
-            );
-            if kind == Kind::Outline || near.is_none() {
-                let label = self.meant(&action.text, table.words.iter().map(|word| word.name));
-                self.tell(
-                    Diagnostic::new(
-                        "E0203",
-                        format!("`{}` is not a word of {}", action.text, kind.title()),
-                    )
-                    .at(action.span, label)
-                    .help(word_list(table.words)),
-                );
-                return;
-            }
-        }
-        let label = self.meant(&key.text, table.words.iter().map(|word| word.name));
-        self.tell(
-            Diagnostic::new("E0203", format!("`{}` is not a word of {}", key.text, kind.title()))
-                .at(key.span, label)
-                .help(word_list(table.words)),
-        );
-    }
-
-    fn tell_unknown_line(&mut self, kind: Kind, name: &Name) {
-        let table = vocabulary(kind);
-        if let Some(word) = table.find(&name.text, true) {
-            self.tell(
-                Diagnostic::new("E0202", format!("`{}` is a property", name.text))
-                    .at(name.span, "a colon is missing after it")
-                    .help(word.usage()),
-            );
-            return;
-        }
-        let elsewhere: Vec<&str> = words::tables()
-            .filter(|other| other.kind != kind && other.find(&name.text, false).is_some())
-            .map(|other| other.kind.title())
-            .collect();
-        let near = crate::diagnostic::spelling::nearest(
-            &name.text,
-            table.words.iter().map(|word| word.name),
-        );
-        let told = match (near, elsewhere.is_empty()) {
-            (None, false) => {
-                Diagnostic::new("E0202", format!("{} has no `{}`", kind.title(), name.text))
-                    .at(name.span, format!("it belongs into {}", elsewhere.join(" or ")))
-            }
-            _ => {
-                let label = self.meant(&name.text, table.words.iter().map(|word| word.name));
-                Diagnostic::new(
-                    "E0203",
-                    format!("`{}` is not a word of {}", name.text, kind.title()),
-                )
-                .at(name.span, label)
-            }
-        };
-        self.tell(told.help(word_list(table.words)));
-    }
-}
-
-fn word_list(words: &[Word]) -> String {
-    if words.is_empty() {
-        return "it has no words".to_owned();
-    }
-    let mut names: Vec<&str> = words.iter().map(|word| word.name).collect();
-    names.dedup();
-    format!("its words are {}", names.join(", "))
 }

@@ -98,6 +98,15 @@ impl<'t> Phrase<'t> {
     }
 }
 
+/// A line of a block that could not be matched, which has been told.
+#[derive(Clone, Copy, Debug)]
+pub struct Spoiled<'t> {
+    /// The word of the table that it says, or probably means.
+    pub word: Option<&'static Word>,
+    /// The label before it.
+    pub label: Option<&'t Name>,
+}
+
 /// The properties and actions of a block, in the order of the text.
 #[derive(Clone, Debug)]
 pub struct Fields<'t> {
@@ -111,6 +120,8 @@ pub struct Fields<'t> {
     pub scope: ScopeId,
     /// Its lines.
     pub phrases: Vec<Phrase<'t>>,
+    /// Lines that cannot be used. Nobody complains that what they say is missing.
+    pub spoiled: Vec<Spoiled<'t>>,
 }
 
 impl<'t> Fields<'t> {
@@ -122,6 +133,16 @@ impl<'t> Fields<'t> {
     /// All phrases of that word.
     pub fn all<'a>(&'a self, word: &'a str) -> impl Iterator<Item = &'a Phrase<'t>> {
         self.phrases.iter().filter(move |phrase| phrase.word.name == word)
+    }
+
+    /// Whether a line says that word, be it in a way that cannot be used.
+    pub fn mentions(&self, word: &str) -> bool {
+        self.get(word).is_some() || self.spoils(word)
+    }
+
+    /// Whether a line says that word in a way that cannot be used.
+    pub fn spoils(&self, word: &str) -> bool {
+        self.spoiled.iter().any(|line| line.word.is_some_and(|known| known.name == word))
     }
 
     /// The first value of a property.
@@ -440,10 +461,10 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// A property that must be given; its absence is told.
+    /// A property that must be given; its absence is told, unless it is there but spoiled.
     pub fn required<'f>(&mut self, fields: &'f Fields<'t>, word: &str) -> Option<&'f Phrase<'t>> {
         let found = fields.get(word);
-        if found.is_none() {
+        if found.is_none() && !fields.spoils(word) {
             let help = super::words::vocabulary(fields.kind)
                 .words
                 .iter()

@@ -129,14 +129,18 @@ pub(super) fn wearer(ev: &mut Evaluator<'_>, id: ItemId) -> Option<BodyRequest> 
     let base = ev.item_named(arg, Kind::Body)?;
     let Made::Body(body) = ev.make(base, arg.expr.span)? else { return None };
     let fields = ev.open_item(id)?;
+    // Where a size or a measure is wrong, the body's own serve to look for further mistakes.
     let mut measures = body.measures.clone();
     if let Some(phrase) = fields.get("size").cloned() {
-        measures.extend(size(ev, &fields, &phrase, body.sizes)?);
+        measures.extend(size(ev, &fields, &phrase, body.sizes).unwrap_or_default());
     }
     let known: Vec<String> = measures.keys().cloned().collect();
     let body_name = ev.item(base).name.clone();
-    let own = own_measures(ev, &fields, Some((&body_name, &known)))?;
-    measures.extend(own);
+    let own = own_measures(ev, &fields, Some((&body_name, &known)));
+    measures.extend(own.unwrap_or_default());
+    if measures.is_empty() {
+        return None;
+    }
     let item = ev.item(id);
     Some(BodyRequest { name: item.name.clone(), span: item.span, figure: body.figure, measures })
 }

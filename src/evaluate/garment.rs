@@ -27,6 +27,9 @@ pub(super) struct Making {
     /// Where each wearer stands in the garment.
     pub bodies: BTreeMap<ItemId, usize>,
     fabrics: BTreeMap<ItemId, usize>,
+    /// Whether a part of it is wrong, which has been told. It is looked at all the same, so that
+    /// its other mistakes are told too, but not given out.
+    pub broken: bool,
 }
 
 impl Making {
@@ -49,6 +52,7 @@ impl Making {
             drafts: BTreeMap::new(),
             bodies: BTreeMap::new(),
             fabrics: BTreeMap::new(),
+            broken: false,
         }
     }
 }
@@ -110,26 +114,29 @@ impl<'t> Evaluator<'t> {
             let Some(panel) = phrase.item else { continue };
             self.add_panel(panel, cell, &mut making);
         }
-        if making.garment.panels.is_empty() && fields.all("panel").next().is_none() {
+        if making.garment.panels.is_empty() && !fields.mentions("panel") {
             self.tell(
                 Diagnostic::new("E0208", format!("garment `{name}` has no panels"))
                     .at(span, "here")
                     .help("such as `panel front of denim { … }`"),
             );
         }
-        let whole = fields
+        let drawn = fields
             .all("panel")
             .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
+        let clear = ["panel", "place", "seam"].into_iter().all(|word| !fields.spoils(word));
+        making.broken |= !drawn || !fields.spoiled.is_empty();
         self.places(&fields, &mut making);
         let sewn = self.seams(&fields, &mut making);
         self.holds(&fields, &mut making);
         self.checks(&fields);
         self.schedule(&fields, &mut making);
         self.pictures(&fields, &mut making);
-        if whole && sewn {
+        making.broken |= !sewn;
+        if drawn && sewn && clear {
             self.led(&mut making);
         }
-        Some(making.garment)
+        (!making.broken).then_some(making.garment)
     }
 
     /// How panels stand to the wearer, read from the words of the `place` lines before any panel
@@ -154,6 +161,11 @@ impl<'t> Evaluator<'t> {
                 self.sides.entry(id).or_insert(standing);
             }
         }
+        if fields.spoils("place") {
+            for id in fields.all("panel").filter_map(|phrase| phrase.item) {
+                self.sides.entry(id).or_insert(Standing::Unknown);
+            }
+        }
     }
 
     pub(super) fn wearers(&mut self, fields: &Fields<'t>, making: &mut Making) {
@@ -170,24 +182,17 @@ impl<'t> Evaluator<'t> {
     fn add_panel(&mut self, id: ItemId, cell: Option<f64>, making: &mut Making) {
         let span = self.item(id).span;
         let Some(draft) = self.panel(id, span) else { return };
-        let Some(fabric_item) = draft.fabric else {
-            if !self.says_fabric(id) {
-                self.tell(
-                    Diagnostic::new(
-                        "E0208",
-                        format!("panel `{}` must be given a fabric", draft.name),
-                    )
+        if draft.fabric.is_none() && !self.says_fabric(id) {
+            self.tell(
+                Diagnostic::new("E0208", format!("panel `{}` must be given a fabric", draft.name))
                     .at(span, "missing here")
                     .help(format!("`panel {} of cotton {{ … }}`", draft.name)),
-                );
-            }
-            making.drafts.insert(id, draft);
-            return;
-        };
-        let Some(fabric) = self.fabric_number(fabric_item, span, making) else {
-            making.drafts.insert(id, draft);
-            return;
-        };
+            );
+        }
+        // A piece without its fabric is still sewn, to see whether its seams are right.
+        let fabric = draft.fabric.and_then(|fabric| self.fabric_number(fabric, span, making));
+        making.broken |= fabric.is_none();
+        let fabric = fabric.unwrap_or_default();
         for (number, piece) in draft.pieces.iter().enumerate() {
             if making.garment.panels.len() >= PANELS {
                 self.tell(
@@ -230,7 +235,10 @@ impl<'t> Evaluator<'t> {
     /// Whether a panel or one it copies names a fabric, right or wrong.
     fn says_fabric(&self, id: ItemId) -> bool {
         let item = self.item(id);
-        item.phrase.says("of") || item.phrase.says("=")
+        let opened = self.instances.iter().rev().find(|instance| instance.item == id);
+        item.phrase.says("of")
+            || item.phrase.says("=")
+            || opened.is_some_and(|instance| instance.fields.mentions("fabric"))
     }
 
     /// The number of a fabric in the garment.

@@ -20,6 +20,7 @@ mod module;
 mod operator;
 pub mod panel;
 mod place;
+mod poison;
 mod read;
 mod row;
 pub mod sari;
@@ -30,7 +31,7 @@ pub mod textile;
 pub mod value;
 pub mod words;
 
-use crate::diagnostic::{Diagnostic, FileId, Label, Span};
+use crate::diagnostic::{Diagnostic, FileId, Span, in_order};
 use crate::garment::Garment;
 use crate::syntax::tree::{Expr, Name};
 use crate::units::Quantity;
@@ -64,7 +65,7 @@ const DEPTH: usize = 3_000;
 const STACK: usize = 512 << 20;
 
 /// Works out all garments and scenes of a file. Where a diagnostic is an error, the garment it
-/// belongs to is left out.
+/// belongs to is left out. Diagnostics stand [in the order of the text](in_order).
 pub fn evaluate(
     world: &mut dyn World,
     root: FileId,
@@ -82,17 +83,10 @@ pub fn evaluate(
             })
             .map(std::thread::ScopedJoinHandle::join)
     });
-    match worked {
+    let garments = match worked {
         Ok(Ok((garments, more))) => {
             told.extend(more);
-            // In the order of the text, those of other files behind.
-            told.sort_by_key(|diagnostic| {
-                diagnostic
-                    .labels
-                    .first()
-                    .map(|Label { span, .. }| (span.file != root, span.file, span.start))
-            });
-            (garments, told)
+            garments
         }
         Ok(Err(panic)) => std::panic::resume_unwind(panic),
         Err(error) => {
@@ -100,9 +94,11 @@ pub fn evaluate(
                 Diagnostic::new("E0911", format!("there is no room to work: {error}"))
                     .at(Span::new(root, 0, 0), ""),
             );
-            (Vec::new(), told)
+            Vec::new()
         }
-    }
+    };
+    in_order(root, &mut told);
+    (garments, told)
 }
 
 /// Everything known while a file is worked out.

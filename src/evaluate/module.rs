@@ -127,12 +127,6 @@ pub(super) fn load(
         }
         files.push(Loaded { id, path, text, tree, uses });
     }
-    // Loaded from a stack: the root's messages come first all the same.
-    told.sort_by_key(|diagnostic: &Diagnostic| {
-        diagnostic.labels.first().map_or(u32::MAX, |label| {
-            if label.span.file == root { 0 } else { label.span.file.0.saturating_add(1) }
-        })
-    });
     tell_rings(&files, &mut told);
     let asked = set.iter().filter_map(|pair| ask(root, pair, &mut told)).collect();
     (files, asked, told)
@@ -266,6 +260,7 @@ impl<'t> Evaluator<'t> {
                 title: String::new(),
                 scope,
                 phrases: Vec::new(),
+                spoiled: Vec::new(),
             };
             (scope, fields)
         })

@@ -98,6 +98,8 @@ pub(super) fn part(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Draft> {
         };
         good &= done.is_some();
     }
+    // Of a part of which a line is not known nobody says that something is missing.
+    good &= fields.spoiled.is_empty();
     good &= fits_height(ev, &fields, &part, extent, stated);
     good.then_some(Draft {
         part,
@@ -389,11 +391,12 @@ pub(super) fn sari(ev: &mut Evaluator<'_>, id: ItemId) -> Option<(Sari, ItemId)>
         Some((length??, width??))
     });
     let said = Said::of(ev, &fields)?;
-    said.layout(ev, &fields)?;
+    let layout = said.layout(ev, &fields);
     let ang = said.ang.as_ref().and_then(|at| ev.inner_part(at, Kind::Ang, "ang"));
     let lower = inner(ev, said.lower.as_ref(), Kind::Kath, "lower kath");
     let upper = inner(ev, said.upper.as_ref(), Kind::Kath, "upper kath");
     let padar = inner(ev, said.padar.as_ref(), Kind::Padar, "padar");
+    layout?;
     let (cloth, (length, width)) = (cloth?, size?);
     let (ang, lower, upper, padar) = (ang?, lower?, upper?, padar?);
     let fabric = ev.fabric(cloth, fields.span)?;
@@ -509,6 +512,9 @@ impl<'t> Said<'t> {
     /// E0701: the six layouts are ang alone, with a lower kath, with both, each with or without
     /// a padar (Athale 2004, section 6.1).
     fn layout(&self, ev: &mut Evaluator<'t>, fields: &Fields<'t>) -> Option<()> {
+        if ["ang", "kath", "padar"].into_iter().any(|word| fields.spoils(word)) {
+            return None;
+        }
         const HELP: &str = "the six layouts are ang, ang + lower kath, ang + lower + upper kath, \
                             each with or without padar";
         if self.ang.is_none() {

@@ -38,18 +38,16 @@ impl<'t> Evaluator<'t> {
         for phrase in &fields.phrases {
             let Some(item) = phrase.item else { continue };
             match phrase.word.name {
-                "cloth" => {
-                    self.add_cloth(item, &mut making);
-                }
+                "cloth" => making.broken |= self.add_cloth(item, &mut making).is_none(),
                 "solid" => {
-                    if let Some(solid) = self.solid(item) {
-                        making.garment.solids.push(solid);
-                    }
+                    let solid = self.solid(item);
+                    making.broken |= solid.is_none();
+                    making.garment.solids.extend(solid);
                 }
                 _ => {}
             }
         }
-        if fields.all("cloth").next().is_none() {
+        if !fields.mentions("cloth") {
             self.tell(
                 Diagnostic::new("E0208", format!("scene `{name}` has no cloth"))
                     .at(span, "here")
@@ -60,7 +58,8 @@ impl<'t> Evaluator<'t> {
         self.checks(&fields);
         self.schedule(&fields, &mut making);
         self.pictures(&fields, &mut making);
-        Some(making.garment)
+        making.broken |= !fields.spoiled.is_empty();
+        (!making.broken).then_some(making.garment)
     }
 
     /// Adds a cloth to the scene.

@@ -50,13 +50,15 @@ pub struct Options {
     /// Side of the grid cells of all panels, m, whatever the text asks for.
     pub cell: Option<f64>,
     /// Factor on the sides of all cells. More than 1 gives a coarser cloth of the same garment,
-    /// from which a drape may start; it comes without the picture of its textiles.
+    /// from which a drape may start.
     pub coarsen: f64,
+    /// Whether the picture of the textiles is drawn too. It takes longer than all the rest.
+    pub atlas: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { cell: None, coarsen: 1.0 }
+        Options { cell: None, coarsen: 1.0, atlas: true }
     }
 }
 
@@ -84,7 +86,7 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
     let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
-    if options.coarsen <= 1.0 {
+    if options.atlas {
         atlas::draw(garment, &mut compiled);
     }
     Ok(compiled)

@@ -150,7 +150,7 @@ impl Reader<'_> {
         let last = match row.statements.last_mut() {
             Some(last) if tail && row.whole && !holds_block(last) => last,
             _ => {
-                if let Some(mut statement) = self.guessed(text, span) {
+                if let Some(mut statement) = self.guessed(text, span, block) {
                     statement.doc = joined(std::mem::take(&mut row.doc));
                     row.statements.push(statement);
                 }
@@ -183,8 +183,9 @@ impl Reader<'_> {
         row.whole = false;
     }
 
-    /// `let x` and `param x` of a statement that could not be read further: the name at least.
-    fn guessed(&self, text: &str, span: Span) -> Option<Statement> {
+    /// What a statement that could not be read further begins with: the name of `let x`, the
+    /// block of `for` and `if`. The rest of it is unread.
+    fn guessed(&self, text: &str, span: Span, block: Option<Block>) -> Option<Statement> {
         let (head, rest) = text.split_once([' ', '\t'])?;
         let rest = rest.trim_start();
         let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
@@ -192,14 +193,17 @@ impl Reader<'_> {
         let start = span.end as usize - rest.len();
         let name = Name { text: text.to_owned(), span: self.place(start, start + length) };
         let unread = Expr { span, kind: ExprKind::Unread };
-        let kind = match head {
-            "let" | "fn" => StatementKind::Let { name, value: unread },
-            "param" => {
+        let end = block.as_ref().map_or(span.end, |block| block.span.end);
+        let kind = match (head, block) {
+            ("for", Some(body)) => StatementKind::For { name, over: unread, body },
+            ("if", Some(then)) => StatementKind::If { condition: unread, then, otherwise: None },
+            ("let" | "fn", _) => StatementKind::Let { name, value: unread },
+            ("param", _) => {
                 StatementKind::Param { name, kind: None, default: Some(unread), range: None }
             }
             _ => return None,
         };
-        Some(Statement { span, doc: String::new(), kind })
+        Some(Statement { span: Span { end, ..span }, doc: String::new(), kind })
     }
 
     fn doc(&mut self, row: &mut Row, part: &Part) {

@@ -72,6 +72,7 @@ impl<'t> Evaluator<'t> {
             title: title.clone(),
             scope,
             phrases: Vec::new(),
+            spoiled: Vec::new(),
         };
         self.instances.push(Instance {
             item: id,
@@ -106,7 +107,7 @@ impl<'t> Evaluator<'t> {
                 }
             }
         }
-        if outline.is_none() {
+        if outline.is_none() && !fields.spoils("outline") {
             for edge in &merged.edges {
                 self.tell_no_edge(edge, &[]);
             }
@@ -146,6 +147,9 @@ impl<'t> Evaluator<'t> {
         let merged = Merged { statements, ..Merged::default() };
         let span = Span { end: block.span.start.saturating_add(1), ..block.span };
         let fields = self.read_block(Kind::Outline, span, "the outline".to_owned(), &merged, inner);
+        for line in &fields.spoiled {
+            self.poison_name(line.label, scope);
+        }
         for edge in &fields.phrases {
             let mut names: Vec<&'t Name> = edge.label.into_iter().collect();
             if edge.word.name == "trace" {

@@ -39,6 +39,8 @@ pub(super) struct Instance<'t> {
 pub(super) enum Standing {
     Before,
     Behind,
+    /// The line that might say it cannot be read.
+    Unknown,
 }
 
 /// A panel drawn and cut.

@@ -27,6 +27,7 @@ impl<'t> Evaluator<'t> {
             fields.phrases.iter().filter(|p| SHAPES.contains(&p.word.name)).collect();
         let shape = match shapes.as_slice() {
             [one] => *one,
+            [] if SHAPES.iter().any(|word| fields.spoils(word)) => return None,
             [] => {
                 self.tell(
                     Diagnostic::new("E0208", format!("panel `{name}` has no shape"))
@@ -52,7 +53,8 @@ impl<'t> Evaluator<'t> {
         } else {
             self.shape(shape)?
         };
-        let mut sound = true;
+        // A piece of which a line is not known says nothing to those that are sewn to it.
+        let mut sound = fields.spoiled.is_empty();
         for (number, phrase) in fields.phrases.iter().enumerate() {
             if phrase.word.name == "hole" {
                 let read = holes.iter().find(|(n, _)| *n == number).map(|(_, read)| read);
@@ -159,6 +161,9 @@ impl<'t> Evaluator<'t> {
             }
             [] => {
                 let standing = self.sides.get(&item).copied();
+                if standing == Some(Standing::Unknown) {
+                    return None;
+                }
                 let Some(standing) = standing else {
                     let name = self.item(item).name.clone();
                     self.tell(

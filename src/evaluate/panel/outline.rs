@@ -91,7 +91,8 @@ impl<'t> Evaluator<'t> {
                 None => sound = false,
             }
         }
-        if !sound {
+        // Where an edge is not known, nobody can say whether the outline closes.
+        if !sound || !fields.spoiled.is_empty() {
             return None;
         }
         let Some(last) = steps.last() else {

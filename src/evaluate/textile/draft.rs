@@ -47,6 +47,9 @@ pub(super) fn drawdown<'t>(
             }
             lifted
         }
+        (None, None) if ["tieup", "liftplan"].iter().any(|word| fields.spoils(word)) => {
+            return None;
+        }
         (None, None) => {
             ev.tell(
                 Diagnostic::new("E0208", format!("{} must be given `tieup`", fields.title))

@@ -20,6 +20,7 @@ pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<W
     let ways: Vec<&Phrase<'_>> =
         fields.phrases.iter().filter(|phrase| WAYS.contains(&phrase.word.name)).collect();
     let way = match ways.as_slice() {
+        [] if WAYS.iter().any(|word| fields.spoils(word)) => return None,
         [] => {
             ev.tell(
                 Diagnostic::new("E0208", format!("{} must say how it is woven", fields.title))

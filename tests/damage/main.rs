@@ -3,15 +3,20 @@
 
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+mod program;
+mod wound;
+
 use darzi::diagnostic::{FileId, Texts, json, render};
 use darzi::evaluate::{Options, evaluate};
 use darzi::mesh;
+use darzi::syntax::format::format;
 use darzi::syntax::{parse, tree};
 use darzi::world::{Memory, World};
 use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
+use wound::damaged;
 
 /// Only one test reads at a time, so that the times measured are those of one reader.
 static TURN: Mutex<()> = Mutex::new(());
@@ -19,63 +24,9 @@ static TURN: Mutex<()> = Mutex::new(());
 /// Damaged copies of each text.
 const COPIES: u64 = 30;
 
-/// Damaged copies of each text that are worked out and cut.
+/// Damaged copies of each text, and of each example, that are worked out and cut.
 const CUT_COPIES: u64 = 10;
-
-/// A small generator of chance with a seed (Steele, Lea and Flood 2014, "SplitMix").
-struct Chance(u64);
-
-impl Chance {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as usize % n.max(1)
-    }
-}
-
-/// One to four wounds: bytes, marks of the language, or lines, deleted, doubled or exchanged.
-fn damaged(text: &str, seed: u64) -> String {
-    let mut chance = Chance(seed);
-    let mut bytes = text.as_bytes().to_vec();
-    for _ in 0..=chance.below(4) {
-        if bytes.is_empty() {
-            break;
-        }
-        let at = chance.below(bytes.len());
-        match chance.below(9) {
-            0 => drop(bytes.remove(at)),
-            1 => bytes.insert(at, bytes[at]),
-            2 => {
-                let other = chance.below(bytes.len());
-                bytes.swap(at, other);
-            }
-            3 => bytes[at] = (chance.below(95) + 32) as u8,
-            4 => bytes[at] = chance.below(256) as u8,
-            5 => {
-                let marks = b"{}()[]\"|;:,.-+*/@=<>#\n\r\\";
-                bytes.insert(at, marks[chance.below(marks.len())]);
-            }
-            6 => bytes.truncate(at),
-            kind => {
-                let mut lines: Vec<Vec<u8>> =
-                    bytes.split(|b| *b == b'\n').map(<[u8]>::to_vec).collect();
-                let (a, b) = (chance.below(lines.len()), chance.below(lines.len()));
-                if kind == 7 {
-                    let line = lines.remove(a);
-                    if chance.below(2) == 0 {
-                        lines.insert(b.min(lines.len()), line);
-                    }
-                } else {
-                    lines.insert(b, lines[a].clone());
-                }
-                bytes = lines.join(&b'\n');
-            }
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
-}
+const EXAMPLE_COPIES: u64 = 60;
 
 struct One(String);
 
@@ -140,6 +91,10 @@ fn damaged_texts_are_read_and_told_of() {
                 let (start, end) = (label.span.start as usize, label.span.end as usize);
                 assert!(bad.0.get(start..end).is_some(), "{name}, seed {seed}: {label:?}");
             }
+            if !told.iter().any(|told| told.is_error()) {
+                let new = format(FileId(0), &bad.0).unwrap();
+                assert_eq!(format(FileId(0), &new).as_ref(), Ok(&new), "{name}, seed {seed}");
+            }
             if copy % 8 == 0 {
                 let report = render::report(&told, &bad, false, 80);
                 assert!(!report.contains("Failed to read"), "{name}, seed {seed}:\n{report}");
@@ -149,30 +104,32 @@ fn damaged_texts_are_read_and_told_of() {
     }
 }
 
+/// Evaluates and cuts hundreds of copies as `check` does, in the profile of the tests, which is
+/// some five times slower than the program that is released.
 #[test]
 fn damaged_texts_are_worked_out_and_cut() {
     let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let texts = texts();
     for (number, (name, text)) in texts.iter().enumerate() {
-        for copy in 0..CUT_COPIES {
+        let copies = if name.contains("/examples/") { EXAMPLE_COPIES } else { CUT_COPIES };
+        for copy in 0..copies {
             let seed = 1 << 60 | (number as u64) << 32 | copy;
             // The files beside it stay sound, so that what it uses is found.
             let beside = texts.iter().map(|(path, text)| (file_name(path), text.clone()));
             let mut world =
-                Memory::new(beside.chain([("bad.garment".into(), damaged(text, seed))]));
+                Memory::new(beside.chain([("bad.garment".into(), wound::copy(text, seed))]));
             let root = world.open("bad.garment").unwrap();
             let began = Instant::now();
             let (garments, told) = evaluate(&mut world, root, &Options::default());
             for garment in &garments {
                 // A sound garment is cut, or it is said why it cannot be.
-                // A coarse cloth is cut as a fine one is, without the picture of its textiles.
-                let coarse = mesh::Options { coarsen: 3.0, ..mesh::Options::default() };
-                if let Err(told) = mesh::compile(garment, &coarse) {
+                let options = mesh::Options { atlas: false, ..mesh::Options::default() };
+                if let Err(told) = mesh::compile(garment, &options) {
                     assert!(told.iter().any(|told| told.is_error()), "{name}, seed {seed}");
                 }
             }
             let took = began.elapsed();
-            assert!(took < Duration::from_secs(20), "{name}, seed {seed}: {took:?}");
+            assert!(took < program::AT_ONCE, "{name}, seed {seed}: {took:?}");
             for label in told.iter().flat_map(|told| &told.labels) {
                 let (start, end) = (label.span.start as usize, label.span.end as usize);
                 let text = world.text(label.span.file);
