@@ -216,7 +216,7 @@ impl<'a> Figure<'a> {
         let coat = self.coats.len() as u32;
         self.coats.push(match (surface.kind, solid.and_then(Wood::of)) {
             (SurfaceKind::Body, _) => {
-                Coat::Plain { colour: Light3::new(0.60, 0.555, 0.495), look: Look::of_body() }
+                Coat::Plain { colour: Light3::new(0.530, 0.484, 0.424), look: Look::of_body() }
             }
             (SurfaceKind::Solid, Some(wood)) => Coat::Wood { wood, look: Look::of_solid() },
             (SurfaceKind::Solid, None) => {

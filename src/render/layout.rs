@@ -10,6 +10,9 @@ pub type Frame = [u32; 4];
 /// Room round each figure, as a share of the largest extent of any.
 const MARGIN: f32 = 0.055;
 
+/// What a further row must gain in scale.
+const LARGER: f32 = 1.15;
+
 /// Frames for all views, and how many pixels a figure's unit of [`Window`] takes.
 #[derive(Clone, Debug)]
 pub struct Layout {
@@ -28,13 +31,13 @@ struct Row {
 }
 
 impl Layout {
-    /// Of all divisions into rows the one with the largest scale; opens the windows of the
+    /// The division into rows with the largest scale, or nearly so with fewer rows; opens the windows of the
     /// cameras to all of their frames.
     pub fn of(cameras: &mut [Camera], views: &[View], size: [u32; 2]) -> Self {
         let mut best: Option<(f32, Vec<Row>)> = None;
         let margin = MARGIN * cameras.iter().fold(1e-6_f32, |most, c| most.max(extent(&c.window)));
         level(cameras, views);
-        for columns in 1..=cameras.len() {
+        for columns in (1..=cameras.len()).rev() {
             let rows = rows(cameras, columns);
             let widest = rows.iter().fold(0.0_f32, |most, row| {
                 most.max(row.width + margin * (row.last - row.first + 1) as f32)
@@ -42,8 +45,8 @@ impl Layout {
             let high =
                 rows.iter().map(|row| row.height).sum::<f32>() + margin * (rows.len() + 1) as f32;
             let scale = (size[0] as f32 / widest).min(size[1] as f32 / high);
-            // A hair's breadth of difference does not decide; fewer columns come first.
-            if best.as_ref().is_none_or(|(most, _)| scale > most * 1.001) {
+            // Views belong in one row, unless more rows show the figure much larger.
+            if best.as_ref().is_none_or(|(most, _)| scale > most * LARGER) {
                 best = Some((scale, rows));
             }
         }
