@@ -2,8 +2,9 @@
 
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn darzi(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_darzi"))
@@ -190,4 +191,154 @@ scene hasty {
     assert!(told(&output).contains("the drape did not reach"));
     let stats = std::fs::read_to_string(folder.path().join("s.json")).unwrap();
     assert!(stats.contains("\"reason\": \""));
+}
+
+const UNTIDY: &str = "scene s{cloth c of cotton{size:1m x 1m}}\n";
+const TIDY: &str = "scene s { cloth c of cotton { size: 1m x 1m } }\n";
+
+#[test]
+fn files_and_folders_are_formatted_and_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |path: &str, text: &str| std::fs::write(folder.path().join(path), text).unwrap();
+    let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).unwrap();
+    std::fs::create_dir_all(folder.path().join("all/deep")).unwrap();
+    std::fs::create_dir_all(folder.path().join("all/.hidden")).unwrap();
+    write("a.garment", UNTIDY);
+    for path in ["all/b.garment", "all/deep/c.garment", "all/.hidden/d.garment", "all/e.txt"] {
+        write(path, UNTIDY);
+    }
+    write("all/tidy.garment", TIDY);
+
+    let check = darzi(folder.path(), &["fmt", "--check", "a.garment", "all"]);
+    assert_eq!(code(&check), 1);
+    let said = String::from_utf8_lossy(&check.stdout);
+    for line in
+        ["a.garment:1", "all/b.garment:1", "all/deep/c.garment:1", "  - scene s{", "  + scene s {"]
+    {
+        assert!(said.contains(line), "{line} is missing in\n{said}");
+    }
+    assert!(!said.contains("tidy") && !said.contains("hidden"), "{said}");
+    assert_eq!(read("a.garment"), UNTIDY, "--check writes nothing");
+
+    let done = darzi(folder.path(), &["fmt", "a.garment", "all"]);
+    assert_eq!(code(&done), 0, "{}", told(&done));
+    assert!(done.stdout.is_empty() && done.stderr.is_empty());
+    for (path, text) in [
+        ("a.garment", TIDY),
+        ("all/b.garment", TIDY),
+        ("all/deep/c.garment", TIDY),
+        ("all/tidy.garment", TIDY),
+        ("all/.hidden/d.garment", UNTIDY),
+        ("all/e.txt", UNTIDY),
+    ] {
+        assert_eq!(read(path), text, "{path}");
+    }
+    assert_eq!(code(&darzi(folder.path(), &["fmt", "--check", "a.garment", "all"])), 0);
+}
+
+#[test]
+fn a_file_with_mistakes_in_its_shape_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = "scene s{ size: 3 cm\n";
+    std::fs::write(folder.path().join("broken.garment"), broken).unwrap();
+    std::fs::write(folder.path().join("other.garment"), UNTIDY).unwrap();
+    let output = darzi(
+        folder.path(),
+        &["fmt", "--message-format", "short", "broken.garment", "other.garment"],
+    );
+    assert_eq!(code(&output), 1);
+    assert!(told(&output).contains("broken.garment:1:16: E0102: "), "{}", told(&output));
+    let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).unwrap();
+    assert_eq!(read("broken.garment"), broken);
+    assert_eq!(read("other.garment"), TIDY, "the others are formatted all the same");
+    for call in [&["fmt"][..], &["fmt", "--stdin", "other.garment"], &["fmt", "README.md"]] {
+        assert_eq!(code(&darzi(folder.path(), call)), 2, "{call:?}");
+    }
+    assert_eq!(code(&darzi(folder.path(), &["fmt", "absent.garment"])), 1);
+    std::fs::create_dir(folder.path().join("empty")).unwrap();
+    assert_eq!(code(&darzi(folder.path(), &["fmt", "empty"])), 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_formatted_file_keeps_its_rights_and_its_link() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.garment");
+    std::fs::write(&file, UNTIDY).unwrap();
+    std::fs::set_permissions(&file, PermissionsExt::from_mode(0o640)).unwrap();
+    symlink("a.garment", folder.path().join("link.garment")).unwrap();
+    assert_eq!(code(&darzi(folder.path(), &["fmt", "link.garment"])), 0);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), TIDY);
+    assert_eq!(std::fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    assert!(folder.path().join("link.garment").is_symlink());
+
+    std::fs::write(&file, UNTIDY).unwrap();
+    std::fs::set_permissions(&file, PermissionsExt::from_mode(0o440)).unwrap();
+    assert_eq!(code(&darzi(folder.path(), &["fmt", "a.garment"])), 2);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), UNTIDY);
+}
+
+#[test]
+fn standard_input_is_formatted_to_standard_output() {
+    let pipe = |text: &[u8], arguments: &[&str]| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_darzi"))
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(text).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let output = pipe(UNTIDY.as_bytes(), &["fmt", "--stdin"]);
+    assert_eq!((code(&output), output.stdout.as_slice()), (0, TIDY.as_bytes()));
+    let output = pipe(TIDY.as_bytes(), &["fmt", "--stdin", "--check"]);
+    assert_eq!((code(&output), output.stdout.len()), (0, 0));
+    let output = pipe(UNTIDY.as_bytes(), &["fmt", "--stdin", "--check"]);
+    assert!(code(&output) == 1 && output.stdout.starts_with(b"<stdin>:1\n"));
+    let output = pipe(b"a }", &["fmt", "--stdin"]);
+    assert!(code(&output) == 1 && output.stdout.is_empty() && told(&output).contains("E0106"));
+    let output = pipe(b"a \xff", &["fmt", "--stdin"]);
+    assert!(code(&output) == 1 && told(&output).contains("E0903"));
+}
+
+#[test]
+fn short_messages_are_one_line_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "scene wrong {\n    cloth c of cottn { size: 1m x 1m }\n    solid b { shape: sphere radius 25 }\n}\n";
+    std::fs::write(folder.path().join("wrong.garment"), text).unwrap();
+    let output = darzi(folder.path(), &["check", "wrong.garment", "--message-format", "short"]);
+    assert_eq!(code(&output), 1);
+    let lines: Vec<String> = told(&output).lines().map(str::to_owned).collect();
+    assert!(lines[0].starts_with("wrong.garment:2:16: E0201: "), "{lines:?}");
+    assert!(lines[1].starts_with("wrong.garment:3:36: E0302: "), "{lines:?}");
+    assert_eq!(lines.len(), 2);
+}
+
+#[test]
+fn codes_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |arguments: &[&str]| {
+        let output = darzi(folder.path(), arguments);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &told(&output);
+        (code(&output), text)
+    };
+    let (end, page) = said(&["explain", "e0501"]);
+    assert_eq!(end, 0);
+    assert!(page.starts_with("E0501: lengths of a seam that do not agree\n"), "{page}");
+    assert!(page.contains("\nWrong:\n\n    garment") && page.contains("\nRight:\n"), "{page}");
+    let (end, list) = said(&["explain"]);
+    assert_eq!(end, 0);
+    assert_eq!(list.lines().count(), darzi::diagnostic::codes::CODES.len());
+    assert!(list.lines().any(|line| line == "E0102  a unit stands apart from its number"));
+    let (end, why) = said(&["explain", "E0571"]);
+    assert!(end == 2 && why.contains("did you mean E0501?"), "{why}");
+    let (end, why) = said(&["explain", "seams"]);
+    assert!(end == 2 && why.contains("`darzi explain` lists all"), "{why}");
+
+    std::fs::write(folder.path().join("a.garment"), "let a = 3 cm\n").unwrap();
+    let (end, report) = said(&["check", "a.garment"]);
+    assert!(end == 1 && report.ends_with("`darzi explain E0102` says more\n"), "{report}");
 }

@@ -1,6 +1,6 @@
 //! From a function of space to a closed mesh of its zero.
 //!
-//! Dual contouring on a regular grid with one vertex for each sheet of the surface in a cell,
+//! Dual contouring on a grid along the axes with one vertex for each sheet of the surface in a cell,
 //! then moves along the surface that even out the triangles, each followed by a step back on to
 //! the exact zero.
 //!
@@ -8,7 +8,7 @@
 //! Nielson 2004, "Dual marching cubes" (a vertex for each sheet); Gibson 1998, "Constrained
 //! elastic surface nets" (the smoothing).
 
-use super::form::Bounds;
+use super::part::Bounds;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -92,27 +92,18 @@ fn sheets() -> Vec<[u8; 12]> {
         .collect()
 }
 
-/// Nodes of a regular grid with the function's values.
+/// Nodes of a grid along the axes with the function's values.
 struct Grid {
-    low: Point3<f64>,
-    cell: f64,
+    /// Places of the nodes along each axis, rising, m.
+    lines: [Vec<f64>; 3],
     count: [usize; 3],
     values: Vec<f64>,
 }
 
 impl Grid {
-    fn new(
-        bounds: Bounds,
-        cell: f64,
-        shift: f64,
-        value: &(impl Fn(Point3<f64>) -> f64 + Sync),
-    ) -> Grid {
-        let margin = (1.5 + shift) * cell;
-        let low = bounds.low - Vector3::repeat(margin);
-        let count: [usize; 3] = std::array::from_fn(|k| {
-            ((bounds.high[k] - low[k] + 1.5 * cell) / cell).ceil().max(2.0) as usize + 1
-        });
-        let at = |place: [usize; 3]| low + Vector3::from(place.map(|n| n as f64)) * cell;
+    fn new(lines: [Vec<f64>; 3], cell: f64, value: &(impl Fn(Point3<f64>) -> f64 + Sync)) -> Grid {
+        let count: [usize; 3] = std::array::from_fn(|k| lines[k].len());
+        let at = |place: [usize; 3]| Point3::from(std::array::from_fn(|k| lines[k][place[k]]));
         // Blocks far from the skin take their middle's value: only its sign is used.
         let blocks = count.map(|n| n.div_ceil(BLOCK));
         let half = (BLOCK - 1) as f64 / 2.0;
@@ -125,10 +116,12 @@ impl Grid {
                 for by in 0..blocks[1] {
                     for bx in 0..blocks[0] {
                         let start = [bx * BLOCK, by * BLOCK, bz * BLOCK];
-                        let middle = value(at(start) + Vector3::repeat(half * cell));
+                        let end: [usize; 3] =
+                            std::array::from_fn(|k| (start[k] + BLOCK).min(count[k]));
+                        let middle = value(nalgebra::center(&at(start), &at(end.map(|n| n - 1))));
                         for z in 0..layers {
-                            for y in start[1]..(start[1] + BLOCK).min(count[1]) {
-                                for x in start[0]..(start[0] + BLOCK).min(count[0]) {
+                            for y in start[1]..end[1] {
+                                for x in start[0]..end[0] {
                                     slab[(z * count[1] + y) * count[0] + x] = if middle.abs() > far
                                     {
                                         middle
@@ -144,7 +137,7 @@ impl Grid {
             })
             .collect();
         let values = slabs.concat();
-        Grid { low, cell, count, values }
+        Grid { lines, count, values }
     }
 
     fn index(&self, [x, y, z]: [usize; 3]) -> usize {
@@ -160,7 +153,7 @@ impl Grid {
     }
 
     fn point(&self, place: [usize; 3]) -> Point3<f64> {
-        self.low + Vector3::from(place.map(|n| n as f64)) * self.cell
+        Point3::from(std::array::from_fn(|k| self.lines[k][place[k]]))
     }
 }
 
@@ -242,18 +235,43 @@ fn quads(grid: &Grid) -> (Vec<Point3<f64>>, Vec<[u32; 4]>) {
     (vertices, quads)
 }
 
-/// A mesh of the zero of a function within `bounds`, with triangles of about `cell` m.
+/// Places of nodes over `bounds` with a margin, from its middle outwards; `step` gives their
+/// distance along an axis at a place, and all are moved by `shift` of a step.
+fn lines(bounds: Bounds, shift: f64, step: &impl Fn(usize, f64) -> f64) -> [Vec<f64>; 3] {
+    std::array::from_fn(|k| {
+        let middle = (bounds.low[k] + bounds.high[k]) / 2.0;
+        let middle = middle + shift * step(k, middle);
+        let outwards = |end: f64, way: f64| {
+            let mut line = Vec::new();
+            let mut at = middle;
+            while (at - end) * way < 1.5 * step(k, at) {
+                at += way * step(k, at + way * step(k, at) / 2.0).max(1e-4);
+                line.push(at);
+            }
+            line
+        };
+        let mut line = outwards(bounds.low[k], -1.0);
+        line.reverse();
+        line.push(middle);
+        line.extend(outwards(bounds.high[k], 1.0));
+        line
+    })
+}
+
+/// A mesh of the zero of a function within `bounds`, with triangles of up to about `cell` m.
 ///
-/// `shift` moves the grid by a share of a cell: a second try where a first one has two sheets
-/// too close together. `slope` gives value and gradient.
+/// `step` gives the distance of the grid's lines along an axis (0 to 2) at a place, no more than
+/// `cell`. `shift` moves the grid by a share of a step: a second try where a first one has two
+/// sheets too close together. `slope` gives value and gradient.
 pub(super) fn extract(
     bounds: Bounds,
     cell: f64,
+    step: impl Fn(usize, f64) -> f64,
     shift: f64,
     value: impl Fn(Point3<f64>) -> f64 + Sync,
     slope: impl Fn(Point3<f64>) -> (f64, Vector3<f64>) + Sync,
 ) -> Extract {
-    let grid = Grid::new(bounds, cell, shift, &value);
+    let grid = Grid::new(lines(bounds, shift, &step), cell, &value);
     let (mut vertices, quads) = quads(&grid);
     let mut around: Vec<Vec<u32>> = vec![Vec::new(); vertices.len()];
     for quad in &quads {

@@ -1,9 +1,10 @@
 //! Fitting: the form is measured with a tape and corrected until every girth is the asked one.
 
-use super::form::{BREAST_STAND, Corrections, Form};
+use super::form::{Corrections, Form};
 use super::landmark::{Station, Zone, stations};
 use super::measures::{Measures, cm};
 use super::tape::girth;
+use super::trunk::BREAST_STAND;
 use crate::diagnostic::Diagnostic;
 use crate::garment::scene::{BodyRequest, Figure};
 use nalgebra::{Point3, Vector3};

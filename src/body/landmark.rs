@@ -57,10 +57,7 @@ pub(super) fn stations(figure: Figure, form: &Form) -> Vec<Station> {
         trunk("underbust", underbust, figure == Figure::Female),
         trunk(chest, bust, true),
         Station { axis: upward, centre: neck, ..trunk("neck", neck.y, true) },
-        Station {
-            centre: Point3::new(0.0, form.brow, 0.01 * form.size),
-            ..trunk("head", form.levels[7], true)
-        },
+        Station { centre: form.brow, ..trunk("head", form.levels[7], true) },
     ];
     for (name, y) in ["thigh", "knee", "calf", "ankle"].into_iter().zip(form.leg_levels) {
         let centre = form.leg_centre(y);
@@ -231,7 +228,7 @@ fn add_points(found: &mut BTreeMap<String, Landmark>, form: &Form) {
     // From between the legs up to the skin.
     let under = form.trunk_centre(crotch + 0.05 * form.size);
     put("crotch", out(under, -Vector3::y()));
-    put("head_top", out(Point3::new(0.0, form.brow, 0.01), Vector3::y()));
+    put("head_top", out(form.brow, Vector3::y()));
 }
 
 /// Adds the middle lines of arms and legs.

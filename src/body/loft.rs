@@ -1,5 +1,6 @@
 //! Smooth tubes: oval sections that change along an axis, as a distance-like field.
 
+use super::part::Shape;
 use nalgebra::{Point3, Vector3};
 
 /// Spacing of the sections that a loft is stored as, m.
@@ -120,15 +121,28 @@ impl Loft {
             s2 / 2.0,
         ];
         let (mut value, mut slope) = ([0.0; COLUMNS], [0.0; COLUMNS]);
-        let last = self.table.len() - 1;
         for k in 0..4 {
-            let row = &self.table[(i as usize + k).saturating_sub(1).min(last)];
+            let row = self.row(i as isize + k as isize - 1);
             for c in 0..COLUMNS {
                 value[c] += weights[k] * row[c];
                 slope[c] += slopes[k] * row[c] / STEP;
             }
         }
         (value, slope)
+    }
+
+    /// A row of the table; beyond its ends it goes on as it ended.
+    fn row(&self, at: isize) -> [f64; COLUMNS] {
+        let last = self.table.len() - 1;
+        let on = |end: usize, inner: usize| {
+            let (end, inner) = (&self.table[end], &self.table[inner]);
+            std::array::from_fn(|c| 2.0 * end[c] - inner[c])
+        };
+        match usize::try_from(at) {
+            Err(_) => on(0, 1.min(last)),
+            Ok(at) if at > last => on(last, last.saturating_sub(1)),
+            Ok(at) => self.table[at],
+        }
     }
 
     /// Centre of the section at `t`, m.
@@ -142,9 +156,10 @@ impl Loft {
         let ([a, b, c, d, ..], _) = self.section(t);
         [a, b, c, d]
     }
+}
 
-    /// Points whose box holds the whole tube.
-    pub(super) fn corners(&self) -> Vec<Point3<f64>> {
+impl Shape for Loft {
+    fn corners(&self) -> Vec<Point3<f64>> {
         let mut points = Vec::new();
         for (i, row) in self.table.iter().enumerate() {
             let mut at = vec![self.first + STEP * i as f64];
@@ -165,17 +180,25 @@ impl Loft {
         points
     }
 
-    /// About the distance to the tube's skin, m: exact in sign, and with a slope near 1 close to
-    /// the skin.
-    pub(super) fn value(&self, p: Point3<f64>) -> f64 {
+    // Exact in sign, and with a slope near 1 close to the skin.
+    fn value(&self, p: Point3<f64>) -> f64 {
         let [u, v, t] = self.frame.inward(p);
         let inner = t.clamp(self.first, self.last);
-        let (s, slope) = self.section(inner);
+        let over = t - inner;
+        let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
+        let (mut s, slope) = self.section(inner);
+        if over != 0.0 {
+            // A cap goes on as the end section was changing, for its own length at most.
+            let on = over.clamp(-cap, cap);
+            for c in 0..6 {
+                s[c] += slope[c] * on;
+            }
+        }
         let (x, y) = (u - s[4], v - s[5]);
         let across = (x * x + y * y).sqrt();
         let side_u = usize::from(x < 0.0);
         let side_v = 2 + usize::from(y < 0.0);
-        let (a, b) = (s[side_u].max(1e-4), s[side_v].max(1e-4));
+        let (a, b) = (s[side_u].max(1e-3), s[side_v].max(1e-3));
         if across < 1e-6 {
             return (t - inner).abs() - a.min(b);
         }
@@ -192,12 +215,10 @@ impl Loft {
         // Bounded: where a tube opens like a dish, its rim is nearer than its slope.
         let steep = steep * steep / (1.0 + steep * steep / MOST_STEEP);
         let slant = (1.0 + steep + round * round).sqrt();
-        let over = t - inner;
         if over == 0.0 {
             return (across - reach) / slant;
         }
         // Half an ellipsoid over the end section, by the usual estimate of its distance.
-        let cap = self.caps[usize::from(over > 0.0)].max(1e-4);
         let (i, j) = (over / cap, across / reach);
         let k = (i * i + j * j).sqrt();
         let (i, j) = (i / cap, j / reach);
@@ -209,7 +230,7 @@ impl Loft {
 }
 
 /// Rounds a line of values by repeated means of neighbours, each place over its own width (m);
-/// ends stay level.
+/// ends keep their value.
 fn soften(line: &mut [f64], widths: &[f64]) {
     // Each pass adds a variance of half a step squared.
     let passes: Vec<usize> =
@@ -219,8 +240,9 @@ fn soften(line: &mut [f64], widths: &[f64]) {
     for pass in 0..passes.iter().copied().max().unwrap_or(0) {
         for i in 0..line.len() {
             if passes[i] > pass {
-                let (before, after) = (line[i.saturating_sub(1)], line[(i + 1).min(last)]);
-                next[i] = (before + 2.0 * line[i] + after) / 4.0;
+                if i > 0 && i < last {
+                    next[i] = (line[i - 1] + 2.0 * line[i] + line[i + 1]) / 4.0;
+                }
             }
         }
         line.copy_from_slice(&next);
@@ -251,6 +273,10 @@ impl Curve {
                 let (w, z) = (2.0 * k + h, k + 2.0 * h);
                 slope[i] = (w + z) / (w / d + z / e);
             }
+        }
+        if n > 1 {
+            slope[0] = (y[1] - y[0]) / (x[1] - x[0]);
+            slope[n - 1] = (y[n - 1] - y[n - 2]) / (x[n - 1] - x[n - 2]);
         }
         Curve { x: x[..n].to_vec(), y: y[..n].to_vec(), slope }
     }

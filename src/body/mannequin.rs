@@ -26,7 +26,14 @@ pub fn mannequin(request: &BodyRequest) -> Result<Surface, Vec<Diagnostic>> {
     let form = fit(request, &measures)?;
     let cell = form.height / FINENESS;
     for shift in [0.0, 0.37, 0.71, 0.19] {
-        let mesh = extract(form.bounds(), cell, shift, |p| form.value(p), |p| form.slope(p));
+        let mesh = extract(
+            form.bounds(),
+            cell,
+            |k, at| form.step(k, at) * cell,
+            shift,
+            |p| form.value(p),
+            |p| form.slope(p),
+        );
         let mut surface = Surface {
             name: request.name.clone(),
             parts: mesh.vertices.iter().map(|p| form.part(*p)).collect(),

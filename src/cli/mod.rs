@@ -7,7 +7,10 @@ mod bar;
 mod cache;
 mod check;
 mod compile;
+mod difference;
 mod drape;
+mod explain;
+mod fmt;
 mod new;
 mod output;
 mod project;
@@ -15,6 +18,7 @@ mod render;
 
 use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -37,6 +41,8 @@ struct Cli {
 enum Command {
     /// Read a file and say what is wrong with it
     Check(check::Check),
+    /// Give files their one layout
+    Fmt(fmt::Fmt),
     /// Cut a garment into particles and seams: mesh.json and atlas.png
     Compile(compile::Compile),
     /// Sew a garment and hang it on its wearer: a .glb or .obj
@@ -45,6 +51,8 @@ enum Command {
     Render(render::Render),
     /// Write a commented starter file
     New(new::New),
+    /// Say what the code of a message means
+    Explain(explain::Explain),
 }
 
 /// What every command that reads a `.garment` file takes.
@@ -92,6 +100,8 @@ struct Work {
 enum MessageFormat {
     /// With the lines they speak of
     Human,
+    /// One line a message: file:line:column: code: text
+    Short,
     /// One JSON object a line
     Json,
 }
@@ -133,14 +143,27 @@ enum Stop {
     Drape(String),
 }
 
+/// Writes to standard output. A reader that has seen enough is no failure.
+fn say(text: &str) -> Result<(), Stop> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Stop::Call(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Check(it) => it.run(),
+        Command::Fmt(it) => it.run(),
         Command::Compile(it) => it.run(),
         Command::Drape(it) => it.run(),
         Command::Render(it) => it.run(),
         Command::New(it) => it.run(),
+        Command::Explain(it) => it.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

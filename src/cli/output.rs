@@ -20,7 +20,10 @@ pub(super) fn write(
             fill(&mut buffer)?;
             buffer.flush()?;
         }
-        open_to_all(file.as_file())?;
+        match std::fs::metadata(path) {
+            Ok(old) => file.as_file().set_permissions(old.permissions())?,
+            Err(_) => open_to_all(file.as_file())?,
+        }
         file.persist(path)?;
         Ok(())
     };

@@ -1,7 +1,7 @@
 //! From a file on disk to the garment a command works on.
 
 use super::{Input, MessageFormat, Stop};
-use crate::diagnostic::{Diagnostic, FileId, Texts, in_order, json, render};
+use crate::diagnostic::{Diagnostic, FileId, Texts, in_order, json, render, short};
 use crate::evaluate;
 use crate::garment::Garment;
 use crate::world::{Disk, World};
@@ -18,7 +18,11 @@ pub(super) struct Project {
 impl Project {
     /// Opens the file of `input`.
     pub(super) fn open(input: &Input) -> Result<Self, Stop> {
-        let path = &input.file;
+        Project::at(&input.file, input.message_format)
+    }
+
+    /// Opens a file.
+    pub(super) fn at(path: &Path, format: MessageFormat) -> Result<Self, Stop> {
         if path.extension().is_none_or(|e| e != "garment") {
             return Err(Stop::Call(format!(
                 "`{}` is not a .garment file; darzi reads files that end so",
@@ -31,21 +35,26 @@ impl Project {
             && path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
         let (folder, name) = match (below, path.parent(), path.file_name()) {
             (false, Some(folder), Some(name)) => (folder, Path::new(name)),
-            _ => (Path::new("."), path.as_path()),
+            _ => (Path::new("."), path),
         };
         let Some(name) = name.to_str() else {
             return Err(Stop::Call(format!("`{}` is not written in UTF-8", path.display())));
         };
         let mut world = Disk::new(folder);
         match world.open(name) {
-            Ok(root) => Ok(Project { world, root, format: input.message_format }),
+            Ok(root) => Ok(Project { world, root, format }),
             Err(why) => {
                 let told =
                     Diagnostic::new("E0903", format!("cannot read `{}`", path.display())).help(why);
-                tell(&[told], &world, input.message_format);
+                tell(&[told], &world, format);
                 Err(Stop::Input)
             }
         }
+    }
+
+    /// The file and its text.
+    pub(super) fn text(&self) -> (FileId, &str) {
+        (self.root, self.world.text(self.root))
     }
 
     /// Evaluates the file: its sound garments, and what there is to say of the others.
@@ -98,15 +107,16 @@ impl Project {
     }
 }
 
-fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
-    if diagnostics.is_empty() {
-        return;
-    }
+/// Tells messages about texts on standard error.
+pub(super) fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
+    let Some(first) = diagnostics.first() else { return };
     match format {
         MessageFormat::Json => eprint!("{}", json::lines(diagnostics, texts)),
+        MessageFormat::Short => eprint!("{}", short::lines(diagnostics, texts)),
         MessageFormat::Human => {
             let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
             eprint!("{}", render::report(diagnostics, texts, color, 100));
+            eprintln!("`darzi explain {}` says more", first.code);
         }
     }
 }

@@ -1,15 +1,17 @@
 //! What darzi has to say about a text: coded messages with their places.
 //!
-//! A [`Diagnostic`] is data. It is shown by [`render`] (a report for people, through miette)
-//! or by [`json`] (a line of JSON for programs). Messages state the fact, labels say where,
+//! A [`Diagnostic`] is data. It is shown by [`render`] (a report for people, through miette), by
+//! [`short`] (one line each) or by [`json`] (a line of JSON for programs). Messages state the fact, labels say where,
 //! the help says what to type.
 
 use serde::{Deserialize, Serialize};
 
 pub mod codes;
 pub mod json;
+pub mod page;
 pub mod place;
 pub mod render;
+pub mod short;
 pub mod spelling;
 
 /// The texts that diagnostics speak of.

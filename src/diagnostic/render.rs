@@ -79,7 +79,7 @@ impl Snippets {
 
 /// Replaces control characters and marks that turn the direction of writing by signs of equal
 /// length in bytes, so that places stay true.
-fn clean(text: &str) -> String {
+pub(super) fn clean(text: &str) -> String {
     text.chars()
         .zip(text.chars().skip(1).map(Some).chain([None]))
         .map(|(c, next)| match c {

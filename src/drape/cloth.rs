@@ -1,7 +1,8 @@
 //! A cloth as the solver sees it: knots with mass, threads, shearing cells, band triangles, folds.
 
 use super::bending::{self, Fold};
-use super::matrix::{Matrix, Pattern};
+use super::grid::Taken;
+use super::matrix::Pattern;
 use super::membrane::{self, Triangle};
 use super::shear::Cell;
 use super::tension::Spring;
@@ -29,11 +30,19 @@ pub struct Cloth {
     pub triangles: Vec<Triangle>,
     /// Bending.
     pub folds: Vec<Fold>,
+    /// How many of the springs, cells and folds, the first ones, belong to the grid; the others
+    /// belong to the rim.
+    pub regular: [usize; 3],
     /// All faces as triangles of knots, cells cut in two; anticlockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
+    /// Panel of each face and the rectangle `[u0, v0, u1, v1]` of its plane that it (or the cell
+    /// whose half it is) takes, m.
+    pub face_places: Vec<(u32, [f32; 4])>,
+    /// Shortest edge at each knot, m.
+    pub spacing: Vec<f64>,
     /// Shortest side of a grid cell, m.
     pub cell: f64,
-    /// Stiffness of bending off the diagonal, in the order of the matrix's blocks, N/m.
+    /// Stiffness of the rim's bending off the diagonal, in the order of its matrix's blocks, N/m.
     pub fold_off: Vec<f64>,
     /// Seconds of damping per stiffness: the viscous share of every elastic force is this times
     /// its rate (Rayleigh's second coefficient).
@@ -45,22 +54,34 @@ pub struct Cloth {
 const SWING: f64 = 12.0;
 
 impl Cloth {
-    /// Builds the cloth, and an empty matrix in which all its stiffness and the given further
-    /// pairs of knots have a place.
-    pub fn new(compiled: &Compiled, weld: Weld, sewn: &[[u32; 2]]) -> (Self, Matrix) {
+    /// Builds the cloth.
+    pub fn new(compiled: &Compiled, weld: Weld) -> Self {
         let n = weld.count;
         let mut cloth = Cloth {
             mass: vec![0.0; n],
             area: vec![0.0; n],
             thickness: vec![0.0; n],
             friction: vec![0.0; n],
+            spacing: vec![f64::INFINITY; n],
             cell: f64::INFINITY,
             folds: bending::folds(compiled, &weld),
             weld,
             ..Cloth::default()
         };
         let mut damping = 0.0;
-        for panel in &compiled.panels {
+        #[allow(clippy::cast_possible_truncation)]
+        let plane = |particles: &[u32]| {
+            let mut plane = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+            for p in particles.iter().map(|p| compiled.particles[*p as usize]) {
+                for k in 0..2 {
+                    plane[k] = plane[k].min(p[k] as f32);
+                    plane[k + 2] = plane[k + 2].max(p[k] as f32);
+                }
+            }
+            plane
+        };
+        for (number, panel) in compiled.panels.iter().enumerate() {
+            let number = number as u32;
             let fabric = &compiled.fabrics[panel.fabric];
             let h = panel.cell;
             cloth.cell = cloth.cell.min(h);
@@ -88,6 +109,11 @@ impl Cloth {
                 });
                 cloth.faces.push([corners[0], corners[1], corners[2]]);
                 cloth.faces.push([corners[0], corners[2], corners[3]]);
+                cloth.face_places.extend([(number, plane(&particles)); 2]);
+                for k in corners {
+                    let k = &mut cloth.spacing[k as usize];
+                    *k = k.min(h);
+                }
                 let [a, b, c, d] = particles;
                 edges.extend([([a, b], false), ([d, c], false), ([b, c], true), ([a, d], true)]);
             }
@@ -108,6 +134,15 @@ impl Cloth {
                 let corners = particles.map(|p| cloth.weld.knot[p as usize]);
                 let uv = particles.map(|p| compiled.particles[p as usize]);
                 cloth.faces.push(corners);
+                cloth.face_places.push((number, plane(&particles)));
+                for k in 0..3 {
+                    let (a, b) = (uv[k], uv[(k + 1) % 3]);
+                    let length = libm::hypot(a[0] - b[0], a[1] - b[1]);
+                    for knot in [corners[k], corners[(k + 1) % 3]] {
+                        let s = &mut cloth.spacing[knot as usize];
+                        *s = s.min(length);
+                    }
+                }
                 let Some((gradient, area)) = membrane::rest(uv) else { continue };
                 lump(&mut cloth, &corners, area);
                 cloth.triangles.push(Triangle {
@@ -131,8 +166,7 @@ impl Cloth {
             cloth.cell = 0.01;
         }
         cloth.damping = if total > 0.0 { 2.0 * damping / total / SWING } else { 0.0 };
-        let matrix = cloth.lay_out(sewn);
-        (cloth, matrix)
+        cloth
     }
 
     /// Number of knots.
@@ -140,25 +174,38 @@ impl Cloth {
         self.mass.len()
     }
 
-    fn lay_out(&mut self, sewn: &[[u32; 2]]) -> Matrix {
-        let springs = self.springs.iter().map(|s| s.ends);
-        let cells = self.cells.iter().flat_map(|c| pairs(&c.corners));
+    /// Leaves to the rim what the grid has not taken, and gives the pairs of knots that it joins,
+    /// the given further ones included.
+    pub fn leave(&mut self, taken: &Taken, sewn: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        self.regular = [
+            first(&mut self.springs, &taken.springs),
+            first(&mut self.cells, &taken.cells),
+            first(&mut self.folds, &taken.folds),
+        ];
+        let [springs, cells, folds] = self.regular;
+        let springs = self.springs[springs..].iter().map(|s| s.ends);
+        let cells = self.cells[cells..].iter().flat_map(|c| pairs(&c.corners));
         let triangles = self.triangles.iter().flat_map(|t| pairs(&t.corners));
-        let folds = self.folds.iter().flat_map(|f| pairs(&f.knots[..f.count]));
-        let all = springs.chain(cells).chain(triangles).chain(folds).chain(sewn.iter().copied());
-        let pattern = Pattern::new(self.knots(), all);
-        for s in &mut self.springs {
+        let folds = self.folds[folds..].iter().flat_map(|f| pairs(&f.knots[..f.count]));
+        springs.chain(cells).chain(triangles).chain(folds).chain(sewn.iter().copied()).collect()
+    }
+
+    /// Finds the places of the rim's elements in its matrix. `number` gives the row of each knot.
+    pub fn lay_out(&mut self, pattern: &Pattern, number: &[u32]) {
+        let slot = |a: u32, b: u32| pattern.slot(number[a as usize], number[b as usize]);
+        let [springs, cells, folds] = self.regular;
+        for s in &mut self.springs[springs..] {
             let [a, b] = s.ends;
-            s.slots = match (pattern.slot(a, b), pattern.slot(b, a)) {
+            s.slots = match (slot(a, b), slot(b, a)) {
                 (Some(ab), Some(ba)) => Some([ab, ba]),
                 _ => None,
             };
         }
-        for c in &mut self.cells {
+        for c in &mut self.cells[cells..] {
             let mut k = 0;
             for i in 0..4 {
                 for j in (0..4).filter(|&j| j != i) {
-                    c.slots[k] = pattern.slot(c.corners[i], c.corners[j]);
+                    c.slots[k] = slot(c.corners[i], c.corners[j]);
                     k += 1;
                 }
             }
@@ -167,24 +214,32 @@ impl Cloth {
             let mut k = 0;
             for i in 0..3 {
                 for j in (0..3).filter(|&j| j != i) {
-                    t.slots[k] = pattern.slot(t.corners[i], t.corners[j]);
+                    t.slots[k] = slot(t.corners[i], t.corners[j]);
                     k += 1;
                 }
             }
         }
         self.fold_off = vec![0.0; pattern.blocks()];
-        for fold in &self.folds {
+        for fold in &self.folds[folds..] {
             for (i, wi) in fold.terms() {
                 for (j, wj) in fold.terms() {
                     let value = fold.stiffness * wi * wj;
-                    if let Some(slot) = pattern.slot(i, j) {
+                    if let Some(slot) = slot(i, j) {
                         self.fold_off[slot as usize] += value;
                     }
                 }
             }
         }
-        Matrix::new(pattern)
     }
+}
+
+/// Brings the marked elements to the front, each kind in its order; gives how many there are.
+fn first<T: Copy>(list: &mut [T], marked: &[bool]) -> usize {
+    let chosen = |which: bool| list.iter().zip(marked).filter(move |m| *m.1 == which).map(|m| *m.0);
+    let front: Vec<T> = chosen(true).collect();
+    let sorted: Vec<T> = front.iter().copied().chain(chosen(false)).collect();
+    list.copy_from_slice(&sorted);
+    front.len()
 }
 
 fn pairs(knots: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {

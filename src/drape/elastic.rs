@@ -26,19 +26,21 @@ pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     springs + cells + triangles + folds
 }
 
-/// Sets the blocks off the diagonal of `matrix` to the elastic stiffness times `scale`, and `force`
-/// to the elastic forces.
+/// Sets the blocks off the diagonal of `matrix`, which is over the given knots, to the stiffness of
+/// the rim's elements times `scale`, and adds their forces.
 pub fn assemble(
     cloth: &Cloth,
+    knots: &[u32],
     x: &Places,
     scale: f64,
     matrix: &mut Matrix,
     force: &mut [Vector3<f64>],
 ) {
-    bend(cloth, x, scale, matrix, force);
+    bend(cloth, knots, x, scale, matrix, force);
+    let [springs, cells, _] = cloth.regular;
+    let (rim_springs, rim_cells) = (&cloth.springs[springs..], &cloth.cells[cells..]);
     let at = |k: u32| x[k as usize];
-    let springs: Vec<_> = cloth
-        .springs
+    let springs: Vec<_> = rim_springs
         .par_iter()
         .with_min_len(ROWS)
         .map(|s| {
@@ -46,7 +48,7 @@ pub fn assemble(
             (f, k * scale)
         })
         .collect();
-    for (s, (f, k)) in cloth.springs.iter().zip(&springs) {
+    for (s, (f, k)) in rim_springs.iter().zip(&springs) {
         let [a, b] = s.ends.map(|k| k as usize);
         let Some([ab, ba]) = s.slots else { continue };
         force[a] += f;
@@ -55,8 +57,7 @@ pub fn assemble(
         add(&mut matrix.off[ab as usize], &k);
         add(&mut matrix.off[ba as usize], &k);
     }
-    let loads: Vec<_> = cloth
-        .cells
+    let loads: Vec<_> = rim_cells
         .par_iter()
         .with_min_len(ROWS)
         .map(|c| {
@@ -67,7 +68,7 @@ pub fn assemble(
             load
         })
         .collect();
-    for (c, load) in cloth.cells.iter().zip(&loads) {
+    for (c, load) in rim_cells.iter().zip(&loads) {
         let crossed = load.stiffness[2].transpose();
         let mut slots = c.slots.iter();
         for (i, (di, si)) in ENDS.into_iter().enumerate() {
@@ -120,19 +121,35 @@ fn place(matrix: &mut Matrix, slot: Option<&Option<u32>>, k: &Matrix3<f64>) {
 }
 
 /// Bending: its stiffness never changes, its force is the stiffness times the places.
-fn bend(cloth: &Cloth, x: &Places, scale: f64, matrix: &mut Matrix, force: &mut [Vector3<f64>]) {
+fn bend(
+    cloth: &Cloth,
+    knots: &[u32],
+    x: &Places,
+    scale: f64,
+    matrix: &mut Matrix,
+    force: &mut [Vector3<f64>],
+) {
     let pattern = &matrix.pattern;
     matrix.off.par_iter_mut().zip(&cloth.fold_off).with_min_len(ROWS).for_each(|(block, s)| {
         *block = [[0.0; 4]; 3];
         add_scalar(block, s * scale);
     });
-    force.par_iter_mut().enumerate().with_min_len(ROWS).for_each(|(i, force)| {
-        // Differences to the knot itself, so that the far place of the cloth does not count.
-        let range = pattern.row(i);
-        let mut sum = Vector3::zeros();
-        for (s, &j) in cloth.fold_off[range.clone()].iter().zip(&pattern.columns()[range]) {
-            sum += (x[j as usize] - x[i]) * *s;
-        }
-        *force = -sum;
-    });
+    let bent: Vec<Vector3<f64>> = knots
+        .par_iter()
+        .enumerate()
+        .with_min_len(ROWS)
+        .map(|(i, knot)| {
+            // Differences to the knot itself, so that the far place of the cloth does not count.
+            let range = pattern.row(i);
+            let here = x[*knot as usize];
+            let mut sum = Vector3::zeros();
+            for (s, &j) in cloth.fold_off[range.clone()].iter().zip(&pattern.columns()[range]) {
+                sum += (x[knots[j as usize] as usize] - here) * *s;
+            }
+            sum
+        })
+        .collect();
+    for (knot, sum) in knots.iter().zip(bent) {
+        force[*knot as usize] -= sum;
+    }
 }

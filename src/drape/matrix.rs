@@ -1,4 +1,5 @@
-//! The system matrix of an implicit step: 3 × 3 blocks, one row a knot, in single precision.
+//! The sparse part of the matrix of an implicit step: 3 × 3 blocks, one row a knot, in single
+//! precision.
 //!
 //! Every row stores all its neighbours (both halves of the symmetric matrix), so that a product
 //! is a map over rows and comes out the same for any number of threads.
@@ -7,7 +8,7 @@
 //! whole, more than single precision can hold in one number. Forces inside the cloth do not
 //! change when all of it moves, so what a block off the diagonal does to a knot depends on the
 //! difference of two movements only; products are taken in that form, and inertia, contact and
-//! holds are kept apart as each knot's own block.
+//! holds, each knot's own, are kept elsewhere.
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -80,9 +81,7 @@ impl Pattern {
 pub struct Matrix {
     /// Where the blocks stand.
     pub pattern: Pattern,
-    /// What acts on each knot alone: inertia, contact, holds.
-    pub own: Vec<Block>,
-    /// Blocks of the diagonal: own less all others of the row. Set by [`Matrix::close`].
+    /// Blocks of the diagonal: the opposite of all others of the row. Set by [`Matrix::close`].
     pub diagonal: Vec<Block>,
     /// Other blocks, in the order of the pattern.
     pub off: Vec<Block>,
@@ -93,14 +92,14 @@ impl Matrix {
     pub fn new(pattern: Pattern) -> Self {
         let (n, m) = (pattern.rows(), pattern.blocks());
         let zero = [[0.0; 4]; 3];
-        Matrix { pattern, own: vec![zero; n], diagonal: vec![zero; n], off: vec![zero; m] }
+        Matrix { pattern, diagonal: vec![zero; n], off: vec![zero; m] }
     }
 
     /// Sets the diagonal from the other blocks.
     pub fn close(&mut self) {
-        let (pattern, off, own) = (&self.pattern, &self.off, &self.own);
+        let (pattern, off) = (&self.pattern, &self.off);
         self.diagonal.par_iter_mut().enumerate().with_min_len(ROWS).for_each(|(i, diagonal)| {
-            let mut sum = own[i];
+            let mut sum = [[0.0; 4]; 3];
             for block in &off[pattern.row(i)] {
                 for (s, b) in sum.iter_mut().zip(block) {
                     for l in 0..4 {
@@ -119,11 +118,11 @@ impl Matrix {
         });
     }
 
-    /// `y = A x`.
+    /// `y = A x` for the part of A that feels differences only.
     pub fn multiply(&self, x: &[Lane], y: &mut [Lane]) {
         let row = |i: usize, y: &mut Lane| {
             let here = x[i];
-            let mut sum = apply(&self.own[i], &here);
+            let mut sum = [0.0; 4];
             let range = self.pattern.row(i);
             for (block, &j) in self.off[range.clone()].iter().zip(&self.pattern.column[range]) {
                 let v = &x[j as usize];
@@ -202,17 +201,14 @@ mod tests {
         assert_eq!(pattern.blocks(), 4);
         assert_eq!(pattern.slot(0, 2), None);
         let mut a = Matrix::new(pattern);
-        for (i, own) in a.own.iter_mut().enumerate() {
-            add_scalar(own, if i == 1 { 0.0 } else { 1.0 });
-        }
         for b in &mut a.off {
             add_scalar(b, -1.0);
         }
         a.close();
-        assert!(a.diagonal.iter().all(|d| d[0][0] == 2.0 && d[0][1] == 0.0));
+        assert_eq!(a.diagonal.iter().map(|d| d[0][0]).collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
         let x = [[1.0, 0.0, 2.0, 0.0], [3.0, 1.0, 0.0, 0.0], [5.0, 0.0, 0.0, 0.0]];
         let mut y = [[0.0; 4]; 3];
         a.multiply(&x, &mut y);
-        assert_eq!(y, [[-1.0, -1.0, 4.0, 0.0], [0.0, 2.0, -2.0, 0.0], [7.0, -1.0, 0.0, 0.0]]);
+        assert_eq!(y, [[-2.0, -1.0, 2.0, 0.0], [0.0, 2.0, -2.0, 0.0], [2.0, -1.0, 0.0, 0.0]]);
     }
 }

@@ -2,12 +2,11 @@
 
 pub mod air;
 pub mod bending;
-pub mod boxes;
 pub mod cloth;
-pub mod conjugate;
 pub mod crossing;
 pub mod draped;
 pub mod elastic;
+pub mod grid;
 pub mod hold;
 pub mod ladder;
 pub mod layers;
@@ -16,12 +15,14 @@ pub mod membrane;
 pub mod place;
 pub mod precondition;
 pub mod proximity;
+pub mod rim;
 pub mod schedule;
 pub mod sewing;
 pub mod shear;
 pub mod skin;
 pub mod stats;
 pub mod step;
+pub mod system;
 pub mod tension;
 pub mod weld;
 

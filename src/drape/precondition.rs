@@ -205,18 +205,27 @@ mod tests {
     fn a_single_thread_is_solved_exactly() {
         let n = 40u32;
         let mut a = Matrix::new(Pattern::new(n as usize, (1..n).map(|i| [i - 1, i])));
-        for d in &mut a.own {
-            add_scalar(d, 0.5);
-            d[0][1] += 0.1;
-            d[1][0] += 0.1;
-        }
         for b in &mut a.off {
             add_scalar(b, -1.0);
         }
         a.close();
+        let own = [[0.5, 0.1, 0.0, 0.0], [0.1, 0.5, 0.0, 0.0], [0.0, 0.0, 0.5, 0.0]];
+        for d in &mut a.diagonal {
+            for (column, own) in d.iter_mut().zip(own) {
+                for l in 0..3 {
+                    column[l] += own[l];
+                }
+            }
+        }
         let x: Vec<Lane> = (0..n).map(|i| [i as f32 * 0.1, 1.0, (i % 3) as f32, 0.0]).collect();
         let mut r = vec![[0.0; 4]; n as usize];
         a.multiply(&x, &mut r);
+        for (r, x) in r.iter_mut().zip(&x) {
+            let own = apply(&own, x);
+            for l in 0..3 {
+                r[l] += own[l];
+            }
+        }
         let mut factor = Factor::new(&a);
         factor.refresh(&a);
         let mut z = vec![[0.0; 4]; n as usize];

@@ -48,10 +48,10 @@ impl Sewing {
     }
 
     /// Finds the places of the pairs in the matrix.
-    pub fn lay_out(&mut self, pattern: &super::matrix::Pattern) {
+    pub fn lay_out(&mut self, rim: &super::rim::Rim) {
         for stitch in &mut self.pairs {
             let [a, b] = stitch.knots;
-            if let (Some(ab), Some(ba)) = (pattern.slot(a, b), pattern.slot(b, a)) {
+            if let (Some(ab), Some(ba)) = (rim.slot(a, b), rim.slot(b, a)) {
                 stitch.slots = [ab, ba];
             }
         }

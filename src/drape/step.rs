@@ -6,18 +6,19 @@
 
 use super::air;
 use super::cloth::Cloth;
-use super::conjugate::{self, Aim, Space};
 use super::elastic;
+use super::grid::layout::Layout;
 use super::hold::Holds;
-use super::layers::{Layers, Touches};
-use super::matrix::{Block, Lane, Matrix, add, add_scalar, lane, vector};
-use super::precondition::Factor;
+use super::layers::Layers;
+use super::layers::touch::Touches;
+use super::matrix::add_scalar;
 use super::sewing::Sewing;
 use super::skin::{self, Contact, Push, Skin};
+use super::system::{Aim, System};
 use super::weld::Weld;
 use crate::body::surface::Surface;
 use crate::mesh::compiled::Compiled;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// How a step is taken.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +88,8 @@ pub struct Workshop<'a> {
     pub x: Vec<Vector3<f64>>,
     /// Speeds of the knots, m/s.
     pub v: Vec<Vector3<f64>>,
+    /// Movement of the knots in the last step, m.
+    last: Vec<Vector3<f64>>,
     /// Open seams.
     pub sewing: Sewing,
     /// What is held.
@@ -98,11 +101,7 @@ pub struct Workshop<'a> {
     /// Steps until tangles are looked for again.
     until_look: u32,
     skin: &'a dyn Skin,
-    matrix: Matrix,
-    factor: Factor,
-    space: Space,
-    force: Vec<Vector3<f64>>,
-    dx: Vec<Lane>,
+    system: System,
 }
 
 /// Most times a step is halved.
@@ -135,17 +134,17 @@ impl<'a> Workshop<'a> {
         }
         let mut sewing = Sewing::new(compiled, &weld);
         let open: Vec<[u32; 2]> = sewing.pairs.iter().map(|s| s.knots).collect();
-        let (cloth, matrix) = Cloth::new(compiled, weld, &open);
-        sewing.lay_out(&matrix.pattern);
+        let layout = Layout::new(compiled, &weld);
+        let mut cloth = Cloth::new(compiled, weld);
         let holds = Holds::new(compiled, surfaces, &cloth, &x);
+        let system = System::new(layout, &mut cloth, &open, &holds.held);
+        sewing.lay_out(&system.rim);
         let mut v = vec![Vector3::zeros(); x.len()];
         let mut contact = Contact::new(&cloth, skin, &x);
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
-            factor: Factor::new(&matrix),
-            force: vec![Vector3::zeros(); x.len()],
-            dx: vec![[0.0; 4]; x.len()],
-            space: Space::default(),
+            system,
+            last: vec![Vector3::zeros(); x.len()],
             cloth,
             x,
             v,
@@ -155,7 +154,6 @@ impl<'a> Workshop<'a> {
             layers: None,
             until_look: 0,
             skin,
-            matrix,
         }
     }
 
@@ -226,7 +224,7 @@ impl<'a> Workshop<'a> {
                     LOOK
                 });
             }
-            touches = layers.touch(&self.cloth, &start, &slide);
+            touches = layers.touch(&self.cloth, &start, &ahead, &slide);
         }
         let mut iterations = 0;
         for pass in 0..PASSES {
@@ -237,27 +235,16 @@ impl<'a> Workshop<'a> {
             let mut fall = vec![fallen; start.len()];
             let mut guess = slide.clone();
             self.contact.guide(&self.cloth, &start, &mut guess, &mut fall);
-            for (dx, guess) in self.dx.iter_mut().zip(&guess) {
-                *dx = lane(guess);
-            }
-            let fall: Vec<Lane> = fall.iter().map(lane).collect();
+            let slots = &self.system.grid.layout.slot;
+            let term = touches.term(slots);
             if pass == 0 {
-                self.matrix.close();
-                touches.stiffen(&mut self.matrix);
-                self.factor.refresh(&self.matrix);
+                let more: Vec<_> =
+                    touches.diagonal().map(|(k, block)| (slots[k as usize], block)).collect();
+                self.system.factor(more.into_iter());
             }
-            iterations += conjugate::solve(
-                &self.matrix,
-                &touches,
-                &mut self.factor,
-                &self.holds.held,
-                &b,
-                &fall,
-                &mut self.dx,
-                &mut self.space,
-                manner.aim,
-            );
-            ahead = self.dx.iter().map(vector).collect();
+            let (solution, taken) = self.system.solve(&term, &b, (&guess, &fall), manner.aim);
+            iterations += taken;
+            ahead = solution;
             if ahead.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
                 self.layers = layers;
                 return None;
@@ -265,7 +252,7 @@ impl<'a> Workshop<'a> {
             let on_skin = self.contact.runs_into(&self.cloth, &start, &ahead, &pushes);
             let on_cloth = pass + 1 < PASSES
                 && layers
-                    .as_ref()
+                    .as_mut()
                     .is_some_and(|l| l.catch(&self.cloth, &start, &ahead, &mut touches));
             if !on_skin && !on_cloth {
                 break;
@@ -274,7 +261,7 @@ impl<'a> Workshop<'a> {
         }
         let share = self.bound(&start, &mut ahead, manner);
         let dt = dt * share;
-        let cut = layers.as_ref().map_or(0, |l| l.guard(&start, &mut ahead));
+        let cut = layers.as_mut().map_or(0, |l| l.guard(&start, &mut ahead));
         self.layers = layers;
         self.contact.settle(&self.cloth, &start, &ahead);
         let mut speed = 0.0f64;
@@ -282,6 +269,7 @@ impl<'a> Workshop<'a> {
             self.x[i] = start[i] + dx;
             self.v[i] = dx / dt;
         }
+        self.last = ahead;
         self.contact.look(&self.cloth, self.skin, &self.x);
         self.contact.lift(&self.cloth, &mut self.x, &mut self.v);
         for v in &self.v {
@@ -315,63 +303,63 @@ impl<'a> Workshop<'a> {
         share
     }
 
-    /// Everything but contact: fills the matrix, and gives the knots' own blocks and the right-hand side.
+    /// Everything but contact: fills the matrix, and gives the knots' own blocks and the
+    /// right-hand side.
     fn assemble(
         &mut self,
         x: &[Vector3<f64>],
         v: &[Vector3<f64>],
         manner: &Manner,
-    ) -> (Vec<Block>, Vec<Vector3<f64>>) {
+    ) -> (Vec<Matrix3<f64>>, Vec<Vector3<f64>>) {
         let dt = manner.dt;
         let scale = 1.0 + self.cloth.damping / dt;
-        elastic::assemble(&self.cloth, x, scale, &mut self.matrix, &mut self.force);
-        let matrix = &mut self.matrix;
+        let mut force = self.system.assemble(&self.cloth, x, &self.last, scale);
+        let off = &mut self.system.rim.matrix.off;
         for stitch in self.sewing.pairs.iter().filter(|_| manner.sewing > 0.0) {
             let [a, b] = stitch.knots.map(|k| k as usize);
             let way = x[b] - x[a];
             let k = stitch.stiffness(way.norm(), manner.sewing);
-            self.force[a] += way * k;
-            self.force[b] -= way * k;
-            add_scalar(&mut matrix.off[stitch.slots[0] as usize], -k);
-            add_scalar(&mut matrix.off[stitch.slots[1] as usize], -k);
+            force[a] += way * k;
+            force[b] -= way * k;
+            add_scalar(&mut off[stitch.slots[0] as usize], -k);
+            add_scalar(&mut off[stitch.slots[1] as usize], -k);
         }
-        matrix.own.fill([[0.0; 4]; 3]);
-        for (knot, force, k) in self.holds.pull(&self.cloth, x) {
-            self.force[knot as usize] += force;
-            add(&mut matrix.own[knot as usize], &k);
+        let mut own = vec![Matrix3::zeros(); x.len()];
+        for (knot, pull, k) in self.holds.pull(&self.cloth, x) {
+            force[knot as usize] += pull;
+            own[knot as usize] += k;
         }
         let normals =
             if manner.air > 0.0 { air::normals(&self.cloth.faces, x) } else { Vec::new() };
-        for (i, force) in self.force.iter_mut().enumerate() {
+        for (i, (force, own)) in force.iter_mut().zip(&mut own).enumerate() {
             let mass = self.cloth.mass[i];
             force.y -= mass * manner.gravity;
             *force += v[i] * (mass / dt);
-            let own = mass / (dt * dt) + mass * manner.calm / dt;
-            add_scalar(&mut matrix.own[i], own);
+            *own += Matrix3::from_diagonal_element(mass / (dt * dt) + mass * manner.calm / dt);
             if let Some(normal) = normals.get(i) {
-                let drag = air::damping(manner.air, self.cloth.area[i], normal, &v[i]);
-                add(&mut matrix.own[i], &(drag / dt));
+                *own += air::damping(manner.air, self.cloth.area[i], normal, &v[i]) / dt;
             }
         }
-        (matrix.own.clone(), self.force.clone())
+        (own, force)
     }
 
     /// Adds contact to what [`Workshop::assemble`] gave.
     fn load(
         &mut self,
-        base: &(Vec<Block>, Vec<Vector3<f64>>),
+        base: &(Vec<Matrix3<f64>>, Vec<Vector3<f64>>),
         pushes: &[Option<Push>],
         touches: &Touches,
-    ) -> Vec<Lane> {
-        self.matrix.own.copy_from_slice(&base.0);
+    ) -> Vec<Vector3<f64>> {
         let mut force = base.1.clone();
+        let mut own = base.0.clone();
         for (i, push) in pushes.iter().enumerate() {
             if let Some((f, k)) = push {
-                add(&mut self.matrix.own[i], k);
+                own[i] += k;
                 force[i] += f;
             }
         }
+        self.system.set_own(own.into_iter());
         touches.push(&mut force);
-        force.iter().map(lane).collect()
+        force
     }
 }

@@ -1,9 +1,9 @@
 //! Trials of the solver against what is known in closed form.
 
-use super::conjugate::Aim;
 use super::skin::Skin;
 use super::step::{Manner, Workshop};
 use super::swatch::{Ball, Nothing, Slope, fabric, irregular, rectangles};
+use super::system::Aim;
 use super::weld::Weld;
 use crate::garment::seam::PinTarget;
 use crate::mesh::compiled::{Compiled, MeshPin};
@@ -103,15 +103,24 @@ fn cantilever(gamma: f64, cells: usize, triangles: bool) -> f64 {
     -tip.y / (tip.x - (clamp as f64 - 0.5) * h)
 }
 
+/// The droop against the exact one of the elastica; the error falls with the square of the cell.
+fn droops(gamma: f64, exact: f64, triangles: bool) {
+    let coarse = cantilever(gamma, 20, triangles) / exact - 1.0;
+    let fine = cantilever(gamma, 40, triangles) / exact - 1.0;
+    println!("{gamma} {triangles} {coarse} {fine}");
+    assert!(coarse.abs() < 0.01 && fine.abs() < 0.005, "{coarse} {fine}");
+}
+
 #[test]
 fn a_cantilever_bends_as_the_elastica() {
-    for (gamma, exact) in [(10.0, 1.06680), (50.0, 3.70556)] {
-        for triangles in [false, true] {
-            let coarse = cantilever(gamma, 20, triangles) / exact - 1.0;
-            let fine = cantilever(gamma, 40, triangles) / exact - 1.0;
-            println!("{gamma} {triangles} {coarse} {fine}");
-        }
-    }
+    droops(10.0, 1.06680, false);
+}
+
+#[test]
+#[ignore = "the solver stops short of rest on a cloth that is all band, and is slow at this droop"]
+fn a_long_cantilever_and_one_of_triangles_bend_as_the_elastica() {
+    droops(50.0, 3.70556, false);
+    droops(10.0, 1.06680, true);
 }
 
 /// Cloth stays on a slope of 15° (tan 0.268 < μ = 0.3) and slides on one of 25° with the

@@ -1,7 +1,6 @@
 //! The colours of what covers the figure.
 
 use super::Light3;
-use super::Vector;
 use super::figure::Panel;
 use super::finish::Threads;
 use super::hierarchy::Ray;
@@ -50,14 +49,4 @@ impl Panel {
         }
         colour.map(|c| c.clamp(0.0, WHITEST))
     }
-}
-
-/// Planed wood: rings of a log cut along its length, drawn out along x.
-pub fn wood(at: &Vector) -> Light3 {
-    let wave = libm::sinf(at.x * 2.1 + 1.3) * 0.011 + libm::sinf(at.x * 5.7 + at.z * 3.0) * 0.004;
-    let (y, z) = (at.y + 0.13 + wave, at.z + 0.31 + wave * 1.7);
-    let ring = (y * y * 6.0 + z * z).sqrt() * 62.0;
-    let late = 0.5 + 0.5 * libm::sinf(ring + libm::sinf(ring * 0.37) * 1.3);
-    let late = late * late * late;
-    Light3::new(0.47, 0.335, 0.215) * (1.0 - 0.26 * late)
 }

@@ -1,9 +1,11 @@
 //! What stands in the studio: cloth, bodies and solids as curved triangles with their coats.
 
 use super::finish::Look;
+use super::rim;
 use super::selvage::Selvages;
 use super::slub::Slubs;
 use super::swatch::Swatches;
+use super::wood::Wood;
 use super::{Light3, Vector, tone};
 use crate::body::surface::{Surface, SurfaceKind};
 use crate::drape::draped::Draped;
@@ -25,8 +27,8 @@ pub struct Figure<'a> {
     pub swatches: Swatches<'a>,
     /// Seams and free edges; the triangles of cloth are the first of all.
     pub selvages: Selvages,
-    /// Height of the floor, m.
-    pub floor: f32,
+    /// Height of the floor, m; none under what hangs high above it.
+    pub floor: Option<f32>,
     /// Whether somebody wears it.
     pub worn: bool,
 }
@@ -63,8 +65,10 @@ pub enum Coat {
         /// How light leaves it.
         look: Look,
     },
-    /// Planed wood, its grain along the x axis of the world.
+    /// Planed wood.
     Wood {
+        /// How its grain runs.
+        wood: Wood,
         /// How light leaves it.
         look: Look,
     },
@@ -86,6 +90,9 @@ pub struct Panel {
 /// Seam partners nearer than this are drawn as one, m.
 const WELD: f64 = 4e-3;
 
+/// What hangs higher above the floor than this share of its height is shown without one.
+const HANGS: f32 = 0.06;
+
 /// Places further out than this are left out, m.
 const FAR: f64 = 1e3;
 
@@ -98,7 +105,7 @@ impl<'a> Figure<'a> {
             coats: Vec::new(),
             swatches: Swatches::of(&compiled.atlas),
             selvages: Selvages::default(),
-            floor: 0.0,
+            floor: None,
             worn: draped.surfaces.iter().any(|surface| surface.kind == SurfaceKind::Body),
         };
         figure.add_cloth(compiled, draped);
@@ -111,10 +118,15 @@ impl<'a> Figure<'a> {
                 figure.add_surface(surface, solid);
             }
         }
-        let used = figure.faces.iter().flat_map(|face| face.corners);
-        let lowest = used.map(|k| figure.corners[k as usize].place.y).fold(f32::INFINITY, f32::min);
         // Things stand on y = 0, or on the lowest point of those that reach below.
-        figure.floor = floor.unwrap_or_else(|| lowest.min(0.0));
+        figure.floor = floor.or_else(|| {
+            let heights = figure.places().into_iter().map(|place| place.y);
+            let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            });
+            let floor = low.min(0.0);
+            (low - floor < HANGS * (high - low)).then_some(floor)
+        });
         figure
     }
 
@@ -164,6 +176,21 @@ impl<'a> Figure<'a> {
                 .iter()
                 .map(|face| Face { corners: face.corners.map(|k| k + first), coat: face.coat }),
         );
+        let mut sewn = vec![false; places.len()];
+        for k in compiled.seams.iter().flat_map(|seam| &seam.pairs).flatten() {
+            if let Some(mark) = sewn.get_mut(*k as usize) {
+                *mark = true;
+            }
+        }
+        // Only where there is cloth to be turned.
+        let mut worn = vec![false; places.len()];
+        for k in faces.iter().flat_map(|face| face.corners) {
+            worn[k as usize] = true;
+        }
+        for (sewn, worn) in sewn.iter_mut().zip(worn) {
+            *sewn |= !worn;
+        }
+        rim::turn(compiled, &sewn, first, &mut self.corners, &mut self.faces);
     }
 
     fn panel(&self, panel: &MeshPanel, compiled: &Compiled) -> Panel {
@@ -187,16 +214,12 @@ impl<'a> Figure<'a> {
 
     fn add_surface(&mut self, surface: &Surface, solid: Option<&Solid>) {
         let coat = self.coats.len() as u32;
-        let wooden = matches!(
-            solid.map(|solid| &solid.shape),
-            Some(Shape::Table { .. } | Shape::Box { .. } | Shape::Cylinder { .. })
-        );
-        self.coats.push(match surface.kind {
-            SurfaceKind::Body => {
-                Coat::Plain { colour: Light3::new(0.64, 0.60, 0.545), look: Look::of_body() }
+        self.coats.push(match (surface.kind, solid.and_then(Wood::of)) {
+            (SurfaceKind::Body, _) => {
+                Coat::Plain { colour: Light3::new(0.530, 0.484, 0.424), look: Look::of_body() }
             }
-            SurfaceKind::Solid if wooden => Coat::Wood { look: Look::of_solid() },
-            SurfaceKind::Solid => {
+            (SurfaceKind::Solid, Some(wood)) => Coat::Wood { wood, look: Look::of_solid() },
+            (SurfaceKind::Solid, None) => {
                 Coat::Plain { colour: Light3::new(0.50, 0.485, 0.465), look: Look::of_solid() }
             }
         });

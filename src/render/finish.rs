@@ -117,7 +117,10 @@ impl Look {
             matte: 0.95,
             passes: 0.0,
             sheen: Sheen { strength: 0.08, order: 1, tint: 0.3 },
-            gloss: [Gloss { strength: 0.03, along: 0.5, across: 0.5, tint: 0.0 }, Gloss::default()],
+            gloss: [
+                Gloss { strength: 0.04, along: 0.45, across: 0.45, tint: 0.0 },
+                Gloss::default(),
+            ],
         }
     }
 

@@ -5,23 +5,27 @@
 //! figure hides the floor, and drawn out smoothly in between; the edges of the figure are no
 //! matter of it. The same numbers with the figure and without leave no grain where it does nothing.
 
-use super::Light3;
 use super::camera::Camera;
+use super::layout::Frame;
 use super::sample::Sampler;
 use super::trace::Tracer;
+use super::{Light3, Vector};
 use rayon::prelude::*;
 
 /// Pixels between the places that are looked at.
-const STEP: usize = 3;
+const STEP: u32 = 2;
 
 /// Paths at each.
-const PATHS: u32 = 32;
+const PATHS: u32 = 24;
 
 /// Differences count against so many deviations of the grain.
 const TOLERANCE: f32 = 3.0;
 
-/// Light on the floor, at every few pixels of a view.
+/// Light on the floor about one view's figure, at every few pixels of the sheet. It reaches
+/// beyond the view's own frame as far as the shadow does.
 pub struct Floor {
+    /// Left and top on the sheet, pixels.
+    corner: [u32; 2],
     columns: usize,
     rows: usize,
     spots: Vec<Spot>,
@@ -36,41 +40,59 @@ struct Spot {
     empty: Light3,
     /// Variance of the mean of the first over the second.
     grain: f32,
+    /// Whether it says anything: not under a foot, where nobody looks and no light is.
+    known: bool,
 }
 
 /// The paper behind, which nothing shades.
-const PAPER: Spot =
-    Spot { arrives: Light3::new(1.0, 1.0, 1.0), empty: Light3::new(1.0, 1.0, 1.0), grain: 0.0 };
+const PAPER: Spot = Spot {
+    arrives: Light3::new(1.0, 1.0, 1.0),
+    empty: Light3::new(1.0, 1.0, 1.0),
+    grain: 0.0,
+    known: true,
+};
 
 impl Floor {
-    /// The floor of a picture of `size` pixels; `view` is its number on the sheet.
+    /// The floor about the view with the number `view` in its frame on a sheet of `size` pixels.
     pub fn traced<'a>(
         tracer: impl Fn() -> Tracer<'a> + Sync + Send,
         camera: &Camera,
         view: u32,
+        frame: &Frame,
         size: [u32; 2],
     ) -> Self {
-        let [columns, rows] = size.map(|n| (n as usize).div_ceil(STEP) + 1);
-        let spots = (0..columns * rows)
+        let [left, top, right, bottom] = shaded(&tracer().rim(), camera, frame, size);
+        let columns = right.saturating_sub(left).div_ceil(STEP) as usize + 1;
+        let rows = bottom.saturating_sub(top).div_ceil(STEP) as usize + 1;
+        let spots = (0..if left < right && top < bottom { columns * rows } else { 0 })
             .into_par_iter()
             .with_min_len(32)
             .map_init(tracer, |tracer, at| {
-                let place = [(at % columns) as u32, (at / columns) as u32];
-                let share = |k: usize| (place[k] * STEP as u32) as f32 / size[k] as f32;
+                let place =
+                    [left + (at % columns) as u32 * STEP, top + (at / columns) as u32 * STEP];
+                let share =
+                    |k: usize| (place[k] as f32 - frame[k] as f32) / frame[k + 2].max(1) as f32;
                 let ray = camera.ray(share(0), share(1));
                 let Some(at) = tracer.on_floor(&ray) else { return PAPER };
                 let open = tracer.openness(&at);
+                if open >= 1.0 {
+                    return PAPER;
+                }
+                if tracer.covered(&at) {
+                    return Spot { known: false, ..PAPER };
+                }
                 let mut sum = Sum::default();
                 for path in 0..PATHS {
                     // Apart from the numbers of the pixels.
-                    let mut sampler = Sampler::new(!view, place, path, PATHS);
+                    let spot = place.map(|n| n / STEP);
+                    let mut sampler = Sampler::new(!view, spot, path, PATHS);
                     let (arrives, empty) = tracer.light_on_floor(&at, &mut sampler);
                     sum.add(arrives + (empty - arrives) * open, empty);
                 }
                 sum.mean()
             })
             .collect();
-        Floor { columns, rows, spots }
+        Floor { corner: [left, top], columns, rows, spots }
     }
 
     /// Takes the grain out.
@@ -90,25 +112,35 @@ impl Floor {
         const KERNEL: [f32; 3] = [0.25, 0.5, 0.25];
         let here = self.spots[at];
         let (x, y) = ((at % self.columns) as i64, (at / self.columns) as i64);
-        let doubt = 1.0 / (TOLERANCE * TOLERANCE * here.grain + 1e-6);
-        let mut sum = Spot { arrives: Light3::zeros(), empty: Light3::zeros(), grain: 0.0 };
-        let mut weight = 0.0;
+        // What is not known takes after its neighbours, whatever they are like; and between
+        // nearest neighbours nothing is sharper than the grid can show.
+        let sharp = here.known && step > 1;
+        let doubt = if sharp { 1.0 / (TOLERANCE * TOLERANCE * here.grain + 1e-6) } else { 0.0 };
+        let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
+        let (mut grain, mut weight) = (0.0, 0.0);
         for (dy, row) in KERNEL.iter().enumerate() {
             for (dx, column) in KERNEL.iter().enumerate() {
                 let (px, py) = (x + (dx as i64 - 1) * step, y + (dy as i64 - 1) * step);
                 let tap = self.spot(px, py);
+                if !tap.known {
+                    continue;
+                }
                 let off = here.shade() - tap.shade();
                 let w = row * column / (1.0 + off * off * doubt);
-                sum.arrives += tap.arrives * w;
-                sum.empty += tap.empty * w;
-                sum.grain += tap.grain * w * w;
+                arrives += tap.arrives * w;
+                empty += tap.empty * w;
+                grain += tap.grain * w * w;
                 weight += w;
             }
         }
+        if weight <= 0.0 {
+            return here;
+        }
         Spot {
-            arrives: sum.arrives / weight,
-            empty: sum.empty / weight,
-            grain: sum.grain / (weight * weight),
+            arrives: arrives / weight,
+            empty: empty / weight,
+            grain: grain / (weight * weight),
+            known: true,
         }
     }
 
@@ -118,19 +150,54 @@ impl Floor {
         self.spots[row * self.columns + column]
     }
 
-    /// What is left of the light at the middle of a pixel.
-    pub fn shadow(&self, x: usize, y: usize) -> Light3 {
+    /// Darkens the light on the whole sheet, row by row, where the figure shades its floor.
+    pub fn shade(&self, sheet: &mut [Light3], width: usize) {
+        if self.spots.is_empty() {
+            return;
+        }
+        let [left, top] = self.corner.map(|n| n as usize);
+        let high = (self.rows - 1) * STEP as usize;
+        let wide = ((self.columns - 1) * STEP as usize).min(width.saturating_sub(left));
+        sheet.par_chunks_mut(width.max(1)).skip(top).take(high).enumerate().for_each(
+            |(y, line)| {
+                for (x, light) in line.iter_mut().skip(left).take(wide).enumerate() {
+                    light.component_mul_assign(&self.shadow(x, y));
+                }
+            },
+        );
+    }
+
+    /// What is left of the light at the middle of a pixel, counted from the corner.
+    fn shadow(&self, x: usize, y: usize) -> Light3 {
         let [across, down] = [x, y].map(|n| (n as f32 + 0.5) / STEP as f32);
         let (column, row) = (across.floor(), down.floor());
         let (mix, fall) = (across - column, down - row);
-        let at = |dx: i64, dy: i64| {
-            let spot = self.spot(column as i64 + dx, row as i64 + dy);
-            spot.arrives.zip_map(&spot.empty, |a, e| a / e.max(1e-6))
-        };
-        let top = at(0, 0) * (1.0 - mix) + at(1, 0) * mix;
-        let bottom = at(0, 1) * (1.0 - mix) + at(1, 1) * mix;
-        top * (1.0 - fall) + bottom * fall
+        let (mut left, mut weight) = (Light3::zeros(), 0.0);
+        for (dx, wx) in [(0, 1.0 - mix), (1, mix)] {
+            for (dy, wy) in [(0, 1.0 - fall), (1, fall)] {
+                let spot = self.spot(column as i64 + dx, row as i64 + dy);
+                if spot.known {
+                    let w = wx * wy;
+                    left += spot.arrives.zip_map(&spot.empty, |a, e| a / e.max(1e-6)) * w;
+                    weight += w;
+                }
+            }
+        }
+        if weight > 1e-6 { left / weight } else { Light3::repeat(1.0) }
     }
+}
+
+/// The rectangle of the sheet, left, top, right, bottom, in which the rim of the shadow lies.
+fn shaded(rim: &[Vector], camera: &Camera, frame: &Frame, size: [u32; 2]) -> [u32; 4] {
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    for share in rim.iter().filter_map(|place| camera.picture(place)) {
+        for k in 0..2 {
+            let at = frame[k] as f32 + share[k] * frame[k + 2] as f32;
+            (low[k], high[k]) = (low[k].min(at), high[k].max(at));
+        }
+    }
+    let clipped = |place: f32, k: usize| place.clamp(0.0, size[k] as f32) as u32;
+    [clipped(low[0], 0), clipped(low[1], 1), clipped(high[0], 0), clipped(high[1], 1)]
 }
 
 impl Spot {
@@ -164,6 +231,7 @@ impl Sum {
             arrives: self.arrives / count,
             empty: self.empty / count,
             grain: (self.square / count - shade * shade).max(0.0) / count,
+            known: true,
         }
     }
 }

@@ -6,6 +6,9 @@ use super::{Light3, Vector};
 use crate::garment::scene::Light;
 use std::f32::consts::PI;
 
+/// What a white card in the main light sends back; the tone curve bends it to just below white.
+const EXPOSURE: f32 = 1.26;
+
 /// A rectangle that shines on one side.
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
@@ -17,6 +20,8 @@ pub struct Lamp {
     pub normal: Vector,
     /// Its radiance.
     pub radiance: Light3,
+    /// Whether a flag keeps its light off the floor.
+    pub flagged: bool,
 }
 
 /// Light from all round.
@@ -94,22 +99,23 @@ impl Lighting {
         lighting
     }
 
-    /// A large soft key from the upper left in front, a weak broad fill from the right, a strip
-    /// from behind that draws the outline, and pale walls.
+    /// A large soft key from the upper left that grazes the folds, a weak broad fill from the
+    /// right, a strip from behind that draws the outline and is kept off the floor, and dim walls.
     fn studio(stand: &Stand) -> Self {
         let lamp = |at: [f32; 3], size: [f32; 2], radiance: [f32; 3]| {
             Lamp::aimed(stand, at, size, Light3::from(radiance))
         };
+        let rim = lamp([3.0, 1.6, -3.2], [0.5, 1.5], [7.0, 7.0, 7.1]).flagged();
         Lighting {
             lamps: vec![
-                lamp([-3.1, 2.7, 3.0], [0.95, 1.1], [10.4, 10.1, 9.7]),
-                lamp([3.9, 0.9, 2.6], [1.3, 1.5], [0.60, 0.62, 0.66]),
-                lamp([2.3, 2.3, -3.4], [0.5, 1.3], [10.0, 10.1, 10.4]),
+                lamp([-4.0, 3.1, 2.7], [1.35, 1.35], [10.2, 10.1, 9.95]),
+                lamp([4.2, 0.9, 3.4], [1.5, 1.6], [0.50, 0.497, 0.49]),
+                rim,
             ],
             dome: Dome {
-                zenith: Light3::new(0.27, 0.273, 0.28),
-                horizon: Light3::new(0.17, 0.17, 0.173),
-                nadir: Light3::new(0.13, 0.128, 0.125),
+                zenith: Light3::new(0.240, 0.239, 0.238),
+                horizon: Light3::new(0.070, 0.0695, 0.069),
+                nadir: Light3::new(0.040, 0.0393, 0.0385),
             },
         }
     }
@@ -144,8 +150,7 @@ impl Lighting {
     }
 
     /// Scales all light as a photographer sets the exposure: a white card in the middle, turned
-    /// half towards the camera and half towards the main lamp, is to send back 1.1 (the tone curve
-    /// bends it to just below white).
+    /// half towards the camera and half towards the main lamp, is to send back [`EXPOSURE`].
     fn expose(&mut self, stand: &Stand) {
         let towards = match self.lamps.first() {
             Some(lamp) => (lamp.centre - stand.middle).normalize(),
@@ -154,7 +159,7 @@ impl Lighting {
         let card = (towards + stand.front).normalize();
         let sent = self.sent_by_card(&stand.middle, &card).max();
         if sent > 0.0 {
-            let scale = 1.1 / sent;
+            let scale = EXPOSURE / sent;
             for lamp in &mut self.lamps {
                 lamp.radiance *= scale;
             }
@@ -198,9 +203,25 @@ impl Lighting {
         choice: f32,
         weigh: impl Fn(&Vector) -> f32,
     ) -> Option<Arrival> {
+        self.choose_among(|_| true, place, pair, choice, weigh)
+    }
+
+    /// The same for a place on the floor.
+    pub fn choose_for_floor(&self, place: &Vector, pair: [f32; 2], choice: f32) -> Option<Arrival> {
+        self.choose_among(|lamp| !lamp.flagged, place, pair, choice, |d| d.y.max(0.0))
+    }
+
+    fn choose_among(
+        &self,
+        burns: impl Fn(&Lamp) -> bool,
+        place: &Vector,
+        pair: [f32; 2],
+        choice: f32,
+        weigh: impl Fn(&Vector) -> f32,
+    ) -> Option<Arrival> {
         let mut shares = [0.0_f32; 4];
         let mut whole = 0.0;
-        for (share, lamp) in shares.iter_mut().zip(&self.lamps) {
+        for (share, lamp) in shares.iter_mut().zip(&self.lamps).filter(|(_, l)| burns(l)) {
             let to = lamp.centre - place;
             let distance = to.norm().max(1e-4);
             let direction = to / distance;
@@ -246,7 +267,13 @@ impl Lamp {
             half: [across * (half[0] * stand.extent), up * (half[1] * stand.extent)],
             normal,
             radiance,
+            flagged: false,
         }
+    }
+
+    /// The same with a flag that keeps its light off the floor.
+    fn flagged(self) -> Self {
+        Lamp { flagged: true, ..self }
     }
 
     /// Area, m².
@@ -289,7 +316,7 @@ mod tests {
             let towards = (lighting.lamps[0].centre - stand.middle).normalize();
             let card = (towards + stand.front).normalize();
             let sent = lighting.sent_by_card(&stand.middle, &card);
-            assert!((sent.max() - 1.1).abs() < 1e-3, "{light:?} {sent}");
+            assert!((sent.max() - EXPOSURE).abs() < 1e-3, "{light:?} {sent}");
         }
     }
 
@@ -304,7 +331,7 @@ mod tests {
     fn a_lamp_chosen_at_random_brings_on_average_what_all_bring() {
         let lighting = Lighting::named(Light::Studio, &stand());
         let place = Vector::new(0.1, 1.2, 0.1);
-        let normal = Vector::new(0.6, 0.0, 0.8);
+        let normal = Vector::new(-0.6, 0.0, 0.8);
         let mut sum = 0.0;
         const PATHS: u32 = 4096;
         for path in 0..PATHS {

@@ -12,7 +12,9 @@ mod finish;
 mod floor;
 mod hierarchy;
 mod lamp;
+mod layout;
 mod pixel;
+mod rim;
 mod sample;
 mod selvage;
 mod set;
@@ -23,6 +25,7 @@ mod swatch;
 mod tessellate;
 mod tone;
 mod trace;
+mod wood;
 
 use crate::drape::draped::Draped;
 use crate::garment::scene::Picture;

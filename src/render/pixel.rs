@@ -38,7 +38,7 @@ impl Pixel {
         size: [u32; 2],
         paths: u32,
     ) -> Self {
-        let spread = 2.0 * camera.half[1] / size[1] as f32;
+        let spread = (camera.window[3] - camera.window[1]) / size[1].max(1) as f32;
         let mut sum = Sum::default();
         let mut path = 0;
         while path < paths {

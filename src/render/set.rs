@@ -97,7 +97,9 @@ impl<'a> Set<'a> {
         let coat = &figure.coats[face.coat as usize];
         let (colour, look, threads) = match coat {
             Coat::Plain { colour, look } => (*colour, *look, bare(normal)),
-            Coat::Wood { look } => (coat::wood(&at), *look, bare(normal)),
+            Coat::Wood { wood, look } => {
+                (wood.colour(&at, window.unwrap_or(0.02)), *look, bare(normal))
+            }
             Coat::Cloth(panel) => {
                 let threads = threads(&corners, normal);
                 let rest = [0, 1].map(|k| {
@@ -121,21 +123,32 @@ impl<'a> Set<'a> {
         Place { at, flat, threads, colour, look }
     }
 
-    /// Whether a thread stands at the place of a piece; `choice` decides where threads and gaps
-    /// are too fine to tell.
-    pub fn solid(&self, triangle: u32, u: f32, v: f32, choice: f32) -> bool {
+    /// Whether the ray, where it meets this, comes from inside a body or solid.
+    pub fn leaves_body(&self, hit: &Hit, ray: &Ray) -> bool {
+        let (number, _) = self.pieces[hit.triangle as usize];
+        let coat = &self.figure.coats[self.figure.faces[number as usize].coat as usize];
+        let (_, flat) = self.hierarchy.place(hit);
+        !matches!(coat, Coat::Cloth(_)) && flat.dot(&ray.direction) > 0.0
+    }
+
+    /// Whether a thread stands at the place of a piece in the way of a ray; `choice` decides where
+    /// threads and gaps are too fine to tell.
+    pub fn solid(&self, triangle: u32, u: f32, v: f32, way: &Vector, choice: f32) -> bool {
         let (face, piece) = self.pieces[triangle as usize];
         let face = self.figure.faces[face as usize];
         let Coat::Cloth(panel) = &self.figure.coats[face.coat as usize] else { return true };
         let [u, v] = piece.shares(u, v).map(f64::from);
-        let [a, b, c] = face.corners.map(|k| self.figure.corners[k as usize].rest);
+        let corners = face.corners.map(|k| &self.figure.corners[k as usize]);
+        let [a, b, c] = corners.map(|corner| corner.rest);
         let rest = [0, 1].map(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v);
         let Some((surface, [u, v])) = panel.surface_at(rest) else { return true };
         if !self.figure.swatches.open(surface.face) {
             return true;
         }
-        // Every layer takes a share of its own of the one number.
-        let own = (triangle.wrapping_mul(0x9e37_79b9) >> 8) as f32 * (1.0 / 16_777_216.0);
+        // Every layer takes a share of its own of the one number: panels apart, and what faces
+        // the eye apart from what is behind.
+        let layer = 2 * face.coat + u32::from(corners[0].normal.dot(way) > 0.0);
+        let own = (layer.wrapping_mul(0x9e37_79b9) >> 8) as f32 * (1.0 / 16_777_216.0);
         let share = choice + own;
         self.figure.swatches.look(surface.face, u, v, 1e-3).cover > share - share.floor()
     }

@@ -1,12 +1,22 @@
 //! The atlas as it is looked at: colours in linear light, averaged over what a pixel covers.
 //!
-//! Every region has its own pyramid of ever smaller pictures. Each is averaged in linear light
-//! over exactly its share of the finer one, round the corner for tiles, so that the mean colour
-//! is the same on every level and nothing bleeds from one region into the next.
+//! Every region has its own pyramid of ever smaller pictures. Each is averaged over exactly its
+//! share of the finer one, round the corner for tiles, so that nothing bleeds from one region into
+//! the next. Motifs are averaged in linear light. Threads are not: light that enters one thread
+//! leaves through its neighbours, so that white dots between blue threads look darker and bluer
+//! than their share says.
+//!
+//! # References
+//! Yule and Nielsen 1951, "The penetration of light into paper and its effect on halftone
+//! reproduction": the root of the reflectance is averaged, with n = 2 for fine dots.
 
 use super::{Light3, tone};
 use crate::mesh::compiled::{Atlas, Region};
 use rayon::prelude::*;
+
+/// Textiles are averaged in the manner of Yule and Nielsen up to this size of texel, m: light
+/// wanders about as far as a thread is thick.
+const WANDERS: f64 = 0.6e-3;
 
 /// All regions of an atlas.
 #[derive(Clone, Debug)]
@@ -191,6 +201,8 @@ impl<'a> Swatches<'a> {
         while extent != [1, 1] {
             let next = extent.map(|n| n.div_ceil(2));
             let level = swatch.coarser.len();
+            let texel = (0..2).map(|k| swatch.size[k] / next[k] as f64).fold(0.0, f64::max);
+            let fine = texel < WANDERS;
             let columns = shares(extent[0], next[0]);
             let rows = shares(extent[1], next[1]);
             let mut texels = vec![[0; 4]; next[0] * next[1]];
@@ -199,12 +211,14 @@ impl<'a> Swatches<'a> {
                     let mut sum = [0.0; 4];
                     for &(y, wy) in row {
                         for &(x, wx) in column {
-                            let fine = self.texel(&swatch, level, x, y);
-                            for (a, b) in sum.iter_mut().zip(fine) {
+                            let part = self.texel(&swatch, level, x, y);
+                            let part = if fine { root(part) } else { part };
+                            for (a, b) in sum.iter_mut().zip(part) {
                                 *a += b * (wx * wy);
                             }
                         }
                     }
+                    let sum = if fine { square(sum) } else { sum };
                     *texel = sum.map(|c| (c * 65535.0 + 0.5) as u16);
                 }
             });
@@ -218,6 +232,18 @@ impl<'a> Swatches<'a> {
         swatch.open = whole < 65_500;
         swatch
     }
+}
+
+/// A texel with the root of its colour, still times its cover.
+fn root([r, g, b, cover]: [f32; 4]) -> [f32; 4] {
+    let root = |c: f32| (c * cover).sqrt();
+    [root(r), root(g), root(b), cover]
+}
+
+/// A texel with the square of its colour, still times its cover.
+fn square([r, g, b, cover]: [f32; 4]) -> [f32; 4] {
+    let square = |c: f32| if cover > 0.0 { c * c / cover } else { 0.0 };
+    [square(r), square(g), square(b), cover]
 }
 
 /// Whether the region lies inside the atlas and has an extent.

@@ -37,8 +37,20 @@ const LIFT: f32 = 4e-5;
 /// What the floor sends back of the light that it gets.
 const FLOOR: f32 = 0.62;
 
+/// Shadows on the floor run out at so many half extents of the figure.
+const SHADES: f32 = 1.9;
+
+/// What is nearer to the floor than so many half extents stands on it.
+const STANDS: f32 = 0.008;
+
+/// The floor sends light back from so many half extents round the figure.
+const REACHES: f32 = 6.0;
+
 /// One path's mirrored light counts no more than this, against grain.
 const BRIGHTEST: f32 = 6.0;
+
+/// What comes mirrored from other surfaces counts no more than this.
+const GLINT: f32 = 0.8;
 
 /// One worker's way through the set.
 #[derive(Debug)]
@@ -48,10 +60,10 @@ pub struct Tracer<'a> {
     stack: Stack,
     bounces: u32,
     lift: f32,
-    /// Radius of the floor on which shadows fall, about this place, m.
+    /// The floor about this place, and half the extent of what stands there, m.
     round: (Vector, f32),
-    /// Whether there is a floor.
-    floor: bool,
+    /// Height of the floor, if there is one, m.
+    floor: Option<f32>,
 }
 
 impl<'a> Tracer<'a> {
@@ -69,15 +81,15 @@ impl<'a> Tracer<'a> {
             stack: Stack::new(),
             bounces,
             lift: LIFT * extent.max(0.25),
-            round: (middle, 6.0 * extent),
-            floor: true,
+            round: (middle, extent),
+            floor: set.figure.floor,
         }
     }
 
     /// The same without a floor.
     #[cfg(test)]
     pub fn floating(mut self) -> Self {
-        self.floor = false;
+        self.floor = None;
         self
     }
 
@@ -113,7 +125,8 @@ impl<'a> Tracer<'a> {
         matte += light;
         if !through {
             let shone = place.look.shine(&place.colour, &place.threads, &eye, &direction);
-            shine += light.component_mul(&shone) * (PI / (1.0 - passes));
+            let glint = light.component_mul(&shone) * (PI / (1.0 - passes));
+            shine += glint.map(|c| c.min(GLINT));
         }
         Seeing {
             colour: place.colour,
@@ -198,7 +211,7 @@ impl<'a> Tracer<'a> {
     fn floor_light(&mut self, at: Vector, sampler: &mut Sampler) -> Light3 {
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let mut light = self.all_round();
-        if let Some(arrival) = self.lighting.choose(&at, pair, choice, |d| d.y.max(0.0)) {
+        if let Some(arrival) = self.lighting.choose_for_floor(&at, pair, choice) {
             let ray = Ray {
                 origin: at + Vector::y() * self.lift,
                 direction: arrival.direction,
@@ -216,7 +229,7 @@ impl<'a> Tracer<'a> {
         let origin = at + Vector::y() * self.lift;
         let (pair, [choice, _]) = (sampler.pair(), sampler.pair());
         let (mut arrives, mut empty) = (Light3::zeros(), Light3::zeros());
-        if let Some(arrival) = self.lighting.choose(at, pair, choice, |d| d.y.max(0.0)) {
+        if let Some(arrival) = self.lighting.choose_for_floor(at, pair, choice) {
             let light = arrival.light * (arrival.direction.y.max(0.0) / PI);
             empty += light;
             let ray = Ray { origin, direction: arrival.direction, reach: arrival.distance };
@@ -231,27 +244,52 @@ impl<'a> Tracer<'a> {
         (arrives, empty)
     }
 
-    /// 0 on the floor about the figure, 1 where shadows have run out, far away.
+    /// 0 on the floor about the figure, 1 where shadows have run out, farther away.
     pub fn openness(&self, at: &Vector) -> f32 {
         let off = at - self.round.0;
-        let away = (off.x * off.x + off.z * off.z).sqrt() / self.round.1;
-        let share = ((away - 0.55) / 0.45).clamp(0.0, 1.0);
+        let away = (off.x * off.x + off.z * off.z).sqrt() / (SHADES * self.round.1);
+        let share = ((away - 0.4) / 0.6).clamp(0.0, 1.0);
         share * share * (3.0 - 2.0 * share)
     }
 
-    /// Where the ray meets the floor, if it does within the round on which shadows fall.
+    /// Whether something stands on the floor there, or reaches into it.
+    pub fn covered(&mut self, at: &Vector) -> bool {
+        let origin = at + Vector::y() * self.lift;
+        let ray = Ray { origin, direction: Vector::y(), reach: f32::INFINITY };
+        let set = self.set;
+        let hit = set.hierarchy.nearest(&ray, &mut self.stack, |_, _, _| true);
+        hit.is_some_and(|hit| hit.distance < STANDS * self.round.1 || set.leaves_body(&hit, &ray))
+    }
+
+    /// The line on the floor at which shadows have run out; empty if there is no floor.
+    pub fn rim(&self) -> Vec<Vector> {
+        const POINTS: u32 = 64;
+        let Some(floor) = self.floor else { return Vec::new() };
+        let (middle, extent) = self.round;
+        (0..POINTS)
+            .map(|k| {
+                let (sin, cos) = libm::sincosf(k as f32 * 2.0 * PI / POINTS as f32);
+                let radius = SHADES * extent;
+                Vector::new(middle.x + radius * sin, floor, middle.z + radius * cos)
+            })
+            .collect()
+    }
+
+    /// Where the ray meets the floor, if it does not do so very far away.
     pub fn on_floor(&self, ray: &Ray) -> Option<Vector> {
-        if !self.floor || ray.direction.y > -1e-6 {
+        let floor = self.floor?;
+        if ray.direction.y > -1e-6 {
             return None;
         }
-        let distance = (self.set.figure.floor - ray.origin.y) / ray.direction.y;
+        let distance = (floor - ray.origin.y) / ray.direction.y;
         if distance <= 0.0 {
             return None;
         }
         let mut at = ray.origin + ray.direction * distance;
-        at.y = self.set.figure.floor;
+        at.y = floor;
         let off = at - self.round.0;
-        (off.x * off.x + off.z * off.z < self.round.1 * self.round.1).then_some(at)
+        let reach = REACHES * self.round.1;
+        (off.x * off.x + off.z * off.z < reach * reach).then_some(at)
     }
 
     fn nearest(&mut self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
@@ -260,7 +298,8 @@ impl<'a> Tracer<'a> {
             return set.hierarchy.nearest(ray, &mut self.stack, |_, _, _| true);
         }
         let [choice, _] = sampler.pair();
-        set.hierarchy.nearest(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, choice))
+        set.hierarchy
+            .nearest(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
     }
 
     fn blocked(&mut self, ray: &Ray, sampler: &mut Sampler) -> bool {
@@ -269,7 +308,8 @@ impl<'a> Tracer<'a> {
             return set.hierarchy.blocked(ray, &mut self.stack, |_, _, _| true);
         }
         let [choice, _] = sampler.pair();
-        set.hierarchy.blocked(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, choice))
+        set.hierarchy
+            .blocked(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
     }
 
     /// A start for a ray off the surface, on the side to which it goes.

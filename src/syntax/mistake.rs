@@ -325,9 +325,11 @@ impl<'t> Site<'_, 't> {
         })
     }
 
+    /// A reserved word where a name is wanted; not where it rightly begins the statement.
     fn reserved(&self) -> Option<Diagnostic> {
         let token = self.token();
-        RESERVED.contains(&token).then(|| reserved(token, self.span(token.len())))
+        (RESERVED.contains(&token) && !self.begins(token))
+            .then(|| reserved(token, self.span(token.len())))
     }
 
     /// A bracket that is open at the place, the line being at its end.
@@ -351,6 +353,12 @@ impl<'t> Site<'_, 't> {
         )
     }
 
+    /// Whether the place is the beginning of a statement that `token` may begin.
+    fn begins(&self, token: &str) -> bool {
+        const HEADS: [&str; 6] = ["use", "let", "param", "fn", "for", "if"];
+        self.at == self.from && HEADS.contains(&token)
+    }
+
     /// Nothing that is known: what stands there, and how such a statement looks.
     fn unexpected(&self) -> Diagnostic {
         let token = self.token();
@@ -358,8 +366,12 @@ impl<'t> Site<'_, 't> {
             Diagnostic::new("E0101", "something is missing at the end of this line")
                 .at(self.reader.place(self.at, self.at), "here")
         } else {
-            Diagnostic::new("E0101", format!("`{token}` cannot stand here"))
-                .at(self.span(token.len()), "here")
+            let message = if self.begins(token) {
+                format!("this `{token}` makes no sense")
+            } else {
+                format!("`{token}` cannot stand here")
+            };
+            Diagnostic::new("E0101", message).at(self.span(token.len()), "here")
         };
         told.help(match self.all().split([' ', '\t', '(']).next().unwrap_or("") {
             "let" => "a name for a value: `let NAME = VALUE`",

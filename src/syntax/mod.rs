@@ -5,6 +5,7 @@
 //! the tree and the diagnostics. Reading takes time in proportion to the text.
 
 mod expression;
+pub mod format;
 mod grammar;
 mod literal;
 mod lookalike;

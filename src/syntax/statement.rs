@@ -42,6 +42,7 @@ impl Reader<'_> {
         let mut sources = Vec::new();
         for part in parts.filter(|part| part.as_rule() == Rule::source) {
             let mut span = self.span(&part);
+            let whole = span.end as usize;
             let mut from = None;
             let mut names = Vec::new();
             let mut alias = None;
@@ -64,10 +65,24 @@ impl Reader<'_> {
                     _ => names.push(self.name(&inner)),
                 }
             }
+            if !names.is_empty() && !renamed {
+                span.end += self.closing_brace(span.end as usize, whole);
+            }
             sources.push(Source { span, from: from?, names, alias });
         }
         let end = sources.last()?.span;
         Some((StatementKind::Use(sources), end))
+    }
+
+    /// How far behind `at`, where a list of names ends, its brace closes it; 0 where it has none.
+    /// The source ends at `end`.
+    fn closing_brace(&self, at: usize, end: usize) -> u32 {
+        let mut rest = self.slice(at, end).trim_start();
+        while rest.starts_with("//") {
+            rest = rest.trim_start_matches(|c| !matches!(c, '\n' | '\r')).trim_start();
+        }
+        let length = end - rest.len() + 1 - at;
+        if rest.starts_with('}') { u32::try_from(length).unwrap_or(0) } else { 0 }
     }
 
     fn let_<'t>(&mut self, parts: impl Iterator<Item = Part<'t>>) -> Option<(StatementKind, Span)> {

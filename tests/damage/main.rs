@@ -9,6 +9,7 @@ mod wound;
 use darzi::diagnostic::{FileId, Texts, json, render};
 use darzi::evaluate::{Options, evaluate};
 use darzi::mesh;
+use darzi::syntax::format::format;
 use darzi::syntax::{parse, tree};
 use darzi::world::{Memory, World};
 use std::fs;
@@ -89,6 +90,10 @@ fn damaged_texts_are_read_and_told_of() {
             for label in told.iter().flat_map(|told| &told.labels) {
                 let (start, end) = (label.span.start as usize, label.span.end as usize);
                 assert!(bad.0.get(start..end).is_some(), "{name}, seed {seed}: {label:?}");
+            }
+            if !told.iter().any(|told| told.is_error()) {
+                let new = format(FileId(0), &bad.0).unwrap();
+                assert_eq!(format(FileId(0), &new).as_ref(), Ok(&new), "{name}, seed {seed}");
             }
             if copy % 8 == 0 {
                 let report = render::report(&told, &bad, false, 80);
