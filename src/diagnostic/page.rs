@@ -121,10 +121,10 @@ mod tests {
     #[test]
     fn a_page_is_shown_without_its_fences() {
         let page = page("E0212").unwrap();
-        assert_eq!(page.examples().next().and_then(|wrong| wrong.set), Some("side=30cm)"));
+        assert_eq!(page.examples().next().and_then(|wrong| wrong.set), Some("side=30cm;x:2cm"));
         let shown = page.shown();
         assert!(shown.starts_with("E0212: a value set from outside that cannot be read\n\n"));
-        assert!(shown.contains("\nWrong, with `--set side=30cm)`:\n\n    param side = 40cm"));
+        assert!(shown.contains("\nWrong, with `--set side=30cm;x:2cm`:\n\n    param side = 40cm"));
         assert!(!shown.contains("```"));
     }
 }

@@ -3,7 +3,6 @@
 use super::block::Progress;
 use super::line::{Edge, Kind};
 use super::pen::{LEVEL, Pen};
-use crate::syntax::statement::item_span;
 use crate::syntax::tree::{
     Block, Expr, Formal, Item, Name, Row, Source, SourcePath, Statement, StatementKind,
 };
@@ -257,7 +256,7 @@ impl<'t> Pen<'t> {
     fn phrase(&mut self, items: &[Item], columns: Columns<'t>) {
         let mut open = None;
         for (number, item) in items.iter().enumerate() {
-            let span = item_span(item);
+            let span = item.span();
             let start = span.start as usize;
             match (open, item, columns) {
                 (Some(end), Item::Comma(_), _) => self.cross(end, start, ""),
