@@ -35,6 +35,9 @@ pub struct Cloth {
     pub regular: [usize; 3],
     /// All faces as triangles of knots, cells cut in two; anticlockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
+    /// How much farther from the skin than others a knot is to lie, m, so that the chords of the
+    /// cloth beside it do not cut through a sharp edge.
+    pub raise: Vec<f64>,
     /// Panel of each face and the rectangle `[u0, v0, u1, v1]` of its plane that it (or the cell
     /// whose half it is) takes, m.
     pub face_places: Vec<(u32, [f32; 4])>,
@@ -63,6 +66,7 @@ impl Cloth {
             thickness: vec![0.0; n],
             friction: vec![0.0; n],
             spacing: vec![f64::INFINITY; n],
+            raise: vec![0.0; n],
             cell: f64::INFINITY,
             folds: bending::folds(compiled, &weld),
             weld,

@@ -97,6 +97,11 @@ pub fn drape(
 /// Share of the wearer's height under which a garment's middle does not hang but lie.
 const LOW: f64 = 0.1;
 
+/// Times that a cloth at rest is raised off sharp edges and brought to rest again, and the longest
+/// that each may take, s.
+const RAISINGS: usize = 3;
+const AGAIN: f64 = 5.0;
+
 /// Sews and drapes over given skin, from given first places.
 pub fn dress(
     rungs: &[Compiled],
@@ -161,8 +166,18 @@ pub fn dress(
                     } else {
                         (speed * 5.0, within.min(6.0))
                     };
-                    let course =
+                    let mut course =
                         schedule::settle(&mut shop, (speed, within), fresh, options.air, progress);
+                    // Chords that still cut through a sharp edge: once more, with their knots raised.
+                    for _ in 0..RAISINGS {
+                        let Ok(so_far) = course else { break };
+                        if !fine || !shop.raise() {
+                            break;
+                        }
+                        let pace = (speed, within.min(AGAIN));
+                        course = schedule::settle(&mut shop, pace, false, options.air, progress)
+                            .map(|c| Course { steps: c.steps + so_far.steps, ..c });
+                    }
                     if let (true, Ok(course)) = (fine, course)
                         && !course.reached
                     {

@@ -137,7 +137,7 @@ impl Contact {
 
     /// Distance of the cloth's middle from the skin at a knot that lies on it, m.
     pub fn seat(cloth: &Cloth, knot: usize) -> f64 {
-        0.5 * cloth.thickness[knot] + MARGIN
+        0.5 * cloth.thickness[knot] + MARGIN + cloth.raise[knot]
     }
 
     /// Whether there is anything to touch.
@@ -319,6 +319,29 @@ pub fn clear(cloth: &Cloth, skin: &dyn Skin, x: &mut [Vector3<f64>]) -> f64 {
         }
     }
     deepest.max(0.0)
+}
+
+/// Most by which a knot is raised, m.
+const RAISE: f64 = 0.01;
+
+/// Raises the seats of knots that [`clear`] would have to move, so that the cloth can come to
+/// rest where it is clear of the skin. Gives whether there were any.
+pub fn raise(cloth: &mut Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) -> bool {
+    let mut cleared = x.to_vec();
+    clear(cloth, skin, &mut cleared);
+    let mut any = false;
+    for (k, (from, to)) in x.iter().zip(&cleared).enumerate() {
+        if (to - from).norm() < CLEAR {
+            continue;
+        }
+        let Some(nearest) = skin.nearest(to) else { continue };
+        let more = nearest.distance - Contact::seat(cloth, k);
+        if more > 0.0 && cloth.raise[k] < RAISE {
+            cloth.raise[k] = (cloth.raise[k] + more + CLEAR).min(RAISE);
+            any = true;
+        }
+    }
+    any
 }
 
 impl Touch {

@@ -178,6 +178,11 @@ impl<'a> Workshop<'a> {
         skin::clear(&self.cloth, self.skin, &mut self.x);
     }
 
+    /// Raises knots off sharp edges of the skin; see [`skin::raise`].
+    pub fn raise(&mut self) -> bool {
+        skin::raise(&mut self.cloth, self.skin, &self.x)
+    }
+
     /// Whether cloth lies on skin anywhere, or something holds it.
     pub fn is_held(&self) -> bool {
         self.holds.attached() || !self.holds.pins.is_empty() || self.contact.is_loaded()
