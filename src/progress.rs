@@ -1,7 +1,7 @@
 //! How a long stage tells how far it is; the command line shows it, tests keep quiet.
 
 /// Hears of the course of long work. It may not change the result.
-pub trait Progress {
+pub trait Progress: Send {
     /// A stage begins: `sew`, `settle`, `render`.
     fn stage(&mut self, name: &str);
 

@@ -20,7 +20,7 @@ pub type Lane = [f32; 4];
 pub type Block = [Lane; 3];
 
 /// Rows worked on by one task at a time.
-pub const ROWS: usize = 512;
+pub const ROWS: usize = 2048;
 
 /// Which blocks off the diagonal can differ from zero.
 #[derive(Clone, Debug, Default)]

@@ -90,7 +90,10 @@ pub fn drape(
     let place = |compiled: &Compiled| -> Vec<Vector3<f64>> {
         place::place(compiled, &surfaces[..bodies]).iter().map(|p| p.coords).collect()
     };
-    let (positions, stats) = dress(rungs, &surfaces, &skin, &place, options, progress);
+    // Among the threads from the start: to be called to them for every small piece of work costs more
+    // than the work.
+    let (positions, stats) =
+        rayon::scope(|_| dress(rungs, &surfaces, &skin, &place, options, progress));
     Ok(Draped { positions: positions.into_iter().map(Point3::from).collect(), surfaces, stats })
 }
 
@@ -107,7 +110,7 @@ pub fn dress(
     rungs: &[Compiled],
     surfaces: &[Surface],
     skin: &dyn Skin,
-    place: &dyn Fn(&Compiled) -> Vec<Vector3<f64>>,
+    place: &(dyn Fn(&Compiled) -> Vec<Vector3<f64>> + Sync),
     options: &Options,
     progress: &mut dyn Progress,
 ) -> (Vec<Vector3<f64>>, Stats) {

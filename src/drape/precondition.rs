@@ -37,7 +37,7 @@ impl Factor {
     /// Lays out the runs of a matrix's pattern; no numbers yet.
     pub fn new(matrix: &Matrix) -> Self {
         let n = matrix.pattern.rows();
-        let length = n.div_ceil(8).max(1024);
+        let length = n.div_ceil(4).max(2048);
         let runs = (0..n.div_ceil(length))
             .map(|r| {
                 let first = r * length;
