@@ -94,6 +94,14 @@ impl Rim {
             self.slots.iter().zip(&mut self.matrix.diagonal).zip(&mut self.held)
         {
             *held = free[*slot as usize] == 0.0;
+            if *held {
+                // The grid knows nothing of a held knot; its neighbours' stiffness needs one to match.
+                *d = d.map(|column| column.map(|v| 1.5 * v));
+                for l in 0..3 {
+                    d[l][l] += 1.0;
+                }
+                continue;
+            }
             let at = place(*slot as usize);
             let k: [f32; BLOCK] = std::array::from_fn(|k| diagonal[at + k * LANES]);
             *d = [[k[0], k[1], k[2], 0.0], [k[1], k[3], k[4], 0.0], [k[2], k[4], k[5], 0.0]];

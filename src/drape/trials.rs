@@ -104,23 +104,22 @@ fn cantilever(gamma: f64, cells: usize, triangles: bool) -> f64 {
 }
 
 /// The droop against the exact one of the elastica; the error falls with the square of the cell.
-fn droops(gamma: f64, exact: f64, triangles: bool) {
-    let coarse = cantilever(gamma, 20, triangles) / exact - 1.0;
-    let fine = cantilever(gamma, 40, triangles) / exact - 1.0;
-    println!("{gamma} {triangles} {coarse} {fine}");
-    assert!(coarse.abs() < 0.01 && fine.abs() < 0.005, "{coarse} {fine}");
-}
-
 #[test]
 fn a_cantilever_bends_as_the_elastica() {
-    droops(10.0, 1.06680, false);
+    for (gamma, exact) in [(10.0, 1.06680), (50.0, 3.70556)] {
+        let [coarse, fine] = [20, 40].map(|cells| cantilever(gamma, cells, false) / exact - 1.0);
+        println!("{gamma} {coarse} {fine}");
+        assert!(coarse.abs() < 0.01 && fine.abs() < 0.003, "{gamma} {coarse} {fine}");
+    }
 }
 
+/// Hinges over triangles of irregular shape are not so exact: what they resist depends on how the
+/// triangles lie. A band is a cell wide, so that a cloth which is all band is the worst there is.
 #[test]
-#[ignore = "the solver stops short of rest on a cloth that is all band, and is slow at this droop"]
-fn a_long_cantilever_and_one_of_triangles_bend_as_the_elastica() {
-    droops(50.0, 3.70556, false);
-    droops(10.0, 1.06680, true);
+fn a_cantilever_of_band_triangles_bends_nearly_so() {
+    let error = cantilever(10.0, 20, true) / 1.06680 - 1.0;
+    println!("{error}");
+    assert!(error.abs() < 0.1, "{error}");
 }
 
 /// Cloth stays on a slope of 15° (tan 0.268 < μ = 0.3) and slides on one of 25° with the
