@@ -188,7 +188,11 @@ fn handkerchief(cells: usize, seconds: f64) -> (Vec<Vector3<f64>>, Compiled) {
         stats.largest_weft_strain,
         stats.deepest_penetration
     );
-    println!("crossings {}", stats.self_intersections);
+    let lowest = shop.x.iter().map(|x| x.y).fold(f64::INFINITY, f64::min);
+    assert!((-0.34..=-0.26).contains(&lowest), "{lowest}");
+    assert_eq!(stats.self_intersections, 0);
+    assert!(stats.largest_warp_strain.max(stats.largest_weft_strain) < 0.03);
+    assert!(stats.deepest_penetration < 1e-4);
     (shop.positions(), compiled)
 }
 

@@ -4,7 +4,7 @@
 
 mod pattern;
 
-use darzi::drape::draped::Draped;
+use darzi::drape::draped::{Draped, Verdict};
 use darzi::drape::{Options, drape};
 use darzi::garment::Garment;
 use darzi::mesh::compiled::Compiled;
@@ -35,6 +35,13 @@ fn dress(garment: &Garment, cells: &[f64]) -> (Compiled, Draped) {
         .collect();
     let draped = drape(&rungs, &Options::default(), &mut Loud).expect("drapes");
     println!("{:#?}", draped.stats);
+    let stats = &draped.stats;
+    assert_eq!(stats.verdict, Verdict::Settled, "{:?}", stats.reason);
+    assert_eq!(stats.self_intersections, 0);
+    assert!(stats.largest_seam_gap < 1e-6, "{}", stats.largest_seam_gap);
+    assert!(stats.deepest_penetration < 1e-4, "{}", stats.deepest_penetration);
+    let strain = stats.largest_warp_strain.max(stats.largest_weft_strain);
+    assert!(strain < 0.03, "{strain}");
     (rungs.last().expect("one").clone(), draped)
 }
 
