@@ -5,7 +5,7 @@
 use super::lanes::{F, LANES, V};
 use super::product::chunk;
 use super::strips::{Flow, Law, Strips};
-use super::{BLOCK, Grid, STIFF};
+use super::{BLOCK, Grid, Part, STIFF};
 use pulp::{Simd, WithSimd};
 
 /// Least lateral stiffness of a thread, as a share of its stiffness: in movement and at rest.
@@ -16,20 +16,6 @@ use pulp::{Simd, WithSimd};
 /// square of the angle by which the last step turned the thread. It stands in the matrix only, the
 /// force is exact.
 const SLACK: [f32; 2] = [0.02, 2.0e-4];
-
-/// What a part of the assembly writes.
-pub struct Part<'a> {
-    /// Rows of the part.
-    pub rows: std::ops::Range<usize>,
-    /// Its first slot.
-    pub start: usize,
-    /// Its share of the forces, N.
-    pub force: [&'a mut [f32]; 3],
-    /// Its share of the stiffness.
-    pub stiff: &'a mut [f32],
-    /// Working space.
-    pub strips: &'a mut Strips,
-}
 
 /// Forces and stiffness for a part of the rows.
 pub struct Load<'a, 'b> {
@@ -42,7 +28,13 @@ pub struct Load<'a, 'b> {
     /// Movement in the last step, m.
     pub slide: [&'a [f32]; 3],
     /// The part.
-    pub part: Part<'b>,
+    pub part: &'a Part,
+    /// Its share of the forces, N.
+    pub force: [&'b mut [f32]; 3],
+    /// Its share of the stiffness.
+    pub stiff: &'b mut [f32],
+    /// Working space.
+    pub strips: &'b mut Strips,
 }
 
 struct Loading<'a, 'b, S: Simd> {
@@ -115,7 +107,7 @@ impl<S: Simd> Loading<'_, '_, S> {
 impl<S: Simd> Law<S> for Loading<'_, '_, S> {
     #[inline(always)]
     fn flow(&mut self, s: S, row: usize, at: usize, stride: usize) -> Flow<S> {
-        let h = self.grid.cell[row];
+        let h = self.grid.layout.rows[row].cell;
         let (right, up) = (at + 1, at + stride);
         let (weft, m_weft, b_weft) = self.edge(s, (at, right), h, F::load(s, &self.grid.weft, at));
         let (warp, m_warp, b_warp) = self.edge(s, (at, up), h, F::load(s, &self.grid.warp, at));
@@ -186,17 +178,17 @@ impl WithSimd for Load<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
-        let Load { grid, scale, x, slide, part } = self;
+        let Load { grid, scale, x, slide, part, force, stiff, strips } = self;
         let mut law = Loading {
             grid,
             scale: F::splat(s, scale),
             x,
             slide,
-            force: part.force,
-            stiff: part.stiff,
-            start: part.start,
+            force,
+            stiff,
+            start: part.slots.start,
         };
-        part.strips.pass(s, &grid.layout.rows, part.rows, &mut law);
+        strips.pass(s, &grid.layout.rows, part.rows.clone(), &mut law);
     }
 }
 
@@ -210,10 +202,8 @@ pub struct Diagonal<'a, 'b> {
     pub free: &'a [f32],
     /// By how much bending is to be multiplied.
     pub scale: f32,
-    /// Groups of the part.
-    pub groups: std::ops::Range<usize>,
-    /// Its first slot.
-    pub start: usize,
+    /// The part.
+    pub part: &'a Part,
     /// Its share of the blocks.
     pub diagonal: &'b mut [f32],
 }
@@ -255,7 +245,7 @@ impl WithSimd for Diagonal<'_, '_> {
     fn with_simd<S: Simd>(self, s: S) {
         let stiff = &self.grid.stiff[..];
         let scale = F::splat(s, self.scale);
-        for group in &self.grid.groups[self.groups.clone()] {
+        for group in &self.grid.groups[self.part.groups.clone()] {
             let stride = group.stride;
             for at in (group.base..group.base + group.rows * stride).step_by(F::<S>::COUNT) {
                 let mut block: [F<S>; BLOCK] = chunk(s, self.own, at);
@@ -284,7 +274,7 @@ impl WithSimd for Diagonal<'_, '_> {
                 // Slots without a knot get the unit block.
                 let free = F::load(s, self.free, at);
                 let unit = F::splat(s, 1.0) - free;
-                let list = at - self.start;
+                let list = at - self.part.slots.start;
                 let list = &mut self.diagonal[list / LANES * LANES * BLOCK + list % LANES..];
                 for (k, number) in block.into_iter().enumerate() {
                     let number = number * free;

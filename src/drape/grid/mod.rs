@@ -14,6 +14,7 @@ pub mod thread;
 use crate::drape::cloth::Cloth;
 use lanes::LANES;
 use layout::Layout;
+use std::ops::Range;
 
 /// Numbers of the stiffness at each slot: weft edge m (3) and b, warp edge m (3) and b, the cell's two
 /// diagonals (3 + 3) and what holds each of them in every direction (2).
@@ -55,6 +56,26 @@ pub struct Block {
     pub first: usize,
 }
 
+/// Rows that one thread works on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Their groups.
+    pub groups: Range<usize>,
+    /// Their numbers.
+    pub rows: Range<usize>,
+    /// Their slots.
+    pub slots: Range<usize>,
+}
+
+/// Columns that one thread works on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// Their blocks.
+    pub blocks: Range<usize>,
+    /// Rows of all blocks up to the last of these.
+    pub end: usize,
+}
+
 /// The regular part of a cloth.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
@@ -64,8 +85,12 @@ pub struct Grid {
     pub groups: Vec<Group>,
     /// Blocks of columns.
     pub blocks: Vec<Block>,
-    /// Side of a cell at each row, m.
-    pub cell: Vec<f64>,
+    /// First slot of all rows.
+    pub start: usize,
+    /// The rows, shared out among the threads.
+    pub parts: Vec<Part>,
+    /// The columns, shared out among the threads.
+    pub columns: Vec<Columns>,
     /// Stiffness of the weft edge from each slot to the next, N/m.
     weft: Vec<f32>,
     /// Stiffness of the warp edge from each slot to the one above, N/m.
@@ -103,7 +128,6 @@ impl Grid {
     pub fn new(layout: Layout, cloth: &Cloth) -> (Self, Taken) {
         let n = layout.slots;
         let mut grid = Grid {
-            cell: vec![cloth.cell; layout.rows.len()],
             weft: vec![0.0; n],
             warp: vec![0.0; n],
             shear: vec![0.0; n],
@@ -117,7 +141,8 @@ impl Grid {
         };
         let slot = |knot: u32| layout.slot[knot as usize] as usize;
         let stride = |at: usize| layout.stride_at(at);
-        let mut cells_of_rows: Vec<(usize, f64)> = Vec::new();
+        // Sewn edges may bring elements of one panel to knots that stand in the grid of another.
+        let fits = |at: usize, side: f64| layout.rows[layout.row_at(at)].cell == side;
         let mut taken = Taken {
             springs: vec![false; cloth.springs.len()],
             cells: vec![false; cloth.cells.len()],
@@ -127,11 +152,9 @@ impl Grid {
             let at = cell.corners.map(slot);
             let Some(s) = stride(at[0]) else { continue };
             if at[1] == at[0] + 1 && at[2] == at[0] + s + 1 && at[3] == at[0] + s {
-                // Seams never put two cells in one place, but nothing is lost if one did.
-                if grid.shear[at[0]] == 0.0 {
+                if grid.shear[at[0]] == 0.0 && fits(at[0], cell.side) {
                     grid.shear[at[0]] = cell.modulus as f32;
                     taken.cells[c] = true;
-                    cells_of_rows.push((at[0], cell.side));
                 }
             }
         }
@@ -146,10 +169,9 @@ impl Grid {
             } else {
                 continue;
             };
-            if list[low] == 0.0 {
+            if list[low] == 0.0 && fits(low, spring.rest) {
                 list[low] = spring.stiffness as f32;
                 taken.springs[k] = true;
-                cells_of_rows.push((low, spring.rest));
             }
         }
         for (k, fold) in cloth.folds.iter().enumerate() {
@@ -186,10 +208,6 @@ impl Grid {
                 _ => {}
             }
         }
-        for (at, side) in cells_of_rows {
-            let row = layout.rows.partition_point(|r| r.base <= at) - 1;
-            grid.cell[row] = side;
-        }
         let mut row = 0;
         let mut first = 0;
         for patch in &layout.patches {
@@ -215,43 +233,50 @@ impl Grid {
             }
         }
         grid.layout = layout;
+        grid.share_out();
         (grid, taken)
     }
 
-    /// Groups shared out among the threads at hand; the result never depends on how many.
-    pub fn shares(&self) -> Vec<std::ops::Range<usize>> {
-        let slots = self.layout.loose.saturating_sub(self.start());
-        share(&self.groups, slots, |g| g.rows * g.stride)
-    }
-
-    /// Blocks of columns shared out among the threads at hand.
-    pub fn column_shares(&self) -> Vec<std::ops::Range<usize>> {
-        let slots = self.layout.loose.saturating_sub(self.start());
-        share(&self.blocks, slots, |b| b.rows * LANES)
-    }
-
-    /// First slot of all rows.
-    pub fn start(&self) -> usize {
-        self.groups.first().map_or(self.layout.loose, |g| g.base)
-    }
-
-    /// Slots of a range of groups.
-    pub fn slots(&self, groups: &std::ops::Range<usize>) -> std::ops::Range<usize> {
-        let Some(last) = self.groups[groups.clone()].last() else { return 0..0 };
-        self.groups[groups.start].base..last.base + last.rows * last.stride
+    /// Shares out the work among the threads at hand; the result never depends on how many.
+    fn share_out(&mut self) {
+        let start = self.groups.first().map_or(self.layout.loose, |g| g.base);
+        let slots = self.layout.loose - start;
+        self.start = start;
+        self.parts = share(&self.groups, slots, |g| g.rows * g.stride)
+            .into_iter()
+            .map(|groups| {
+                let [first, last] = [groups.start, groups.end - 1].map(|g| self.groups[g]);
+                Part {
+                    rows: first.row..last.row + last.rows,
+                    slots: first.base..last.base + last.rows * last.stride,
+                    groups,
+                }
+            })
+            .collect();
+        self.columns = share(&self.blocks, slots, |b| b.rows * LANES)
+            .into_iter()
+            .map(|blocks| {
+                let last = self.blocks[blocks.end - 1];
+                Columns { blocks, end: last.first / LANES + last.rows }
+            })
+            .collect();
     }
 }
 
 /// Slots below which one thread is quicker than two.
 const SMALL: usize = 4096;
 
-fn share<T>(items: &[T], slots: usize, size: impl Fn(&T) -> usize) -> Vec<std::ops::Range<usize>> {
+fn share<T>(items: &[T], slots: usize, size: impl Fn(&T) -> usize) -> Vec<Range<usize>> {
+    if items.is_empty() {
+        return Vec::new();
+    }
     let parts = rayon::current_num_threads().min(slots / SMALL).max(1);
     let mut ranges = Vec::with_capacity(parts);
     let (mut start, mut so_far) = (0, 0);
     for (i, item) in items.iter().enumerate() {
         so_far += size(item);
-        if so_far * parts >= slots * (ranges.len() + 1) && ranges.len() + 1 < parts {
+        let enough = so_far * parts >= slots * (ranges.len() + 1);
+        if enough && ranges.len() + 1 < parts && i + 1 < items.len() {
             ranges.push(start..i + 1);
             start = i + 1;
         }

@@ -2,25 +2,11 @@
 
 use super::lanes::{F, LANES, Sum, V};
 use super::strips::{Flow, Law, Strips};
-use super::{BLOCK, Grid, STIFF};
+use super::{BLOCK, Grid, Part, STIFF};
 use pulp::{Simd, WithSimd};
 
 /// Lists of the three components.
 pub type Three = [Vec<f32>; 3];
-
-/// What a part of the product writes.
-pub struct Part<'a> {
-    /// Rows of the part.
-    pub rows: std::ops::Range<usize>,
-    /// Its first slot.
-    pub start: usize,
-    /// Its share of the result.
-    pub y: [&'a mut [f32]; 3],
-    /// Scalar product of each of its rows with the result.
-    pub dots: &'a mut [f64],
-    /// Working space.
-    pub strips: &'a mut Strips,
-}
 
 /// `y = A x` for a part of the rows.
 pub struct Multiply<'a, 'b> {
@@ -33,7 +19,13 @@ pub struct Multiply<'a, 'b> {
     /// The vector.
     pub x: [&'a [f32]; 3],
     /// The part.
-    pub part: Part<'b>,
+    pub part: &'a Part,
+    /// Its share of the result.
+    pub y: [&'b mut [f32]; 3],
+    /// Scalar product of each of its rows with the result.
+    pub dots: &'b mut [f64],
+    /// Working space.
+    pub strips: &'b mut Strips,
 }
 
 struct Product<'a, 'b, S: Simd> {
@@ -122,19 +114,19 @@ impl WithSimd for Multiply<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
-        let Multiply { grid, own, scale, x, part } = self;
+        let Multiply { grid, own, scale, x, part, y, dots, strips } = self;
         let mut law = Product {
             grid,
             own,
             x,
             scale: F::splat(s, scale),
-            y: part.y,
-            start: part.start,
+            y,
+            start: part.slots.start,
             sum: Sum::zero(),
-            dots: part.dots,
+            dots,
             first: part.rows.start,
             row: part.rows.start,
         };
-        part.strips.pass(s, &grid.layout.rows, part.rows, &mut law);
+        strips.pass(s, &grid.layout.rows, part.rows.clone(), &mut law);
     }
 }

@@ -8,7 +8,7 @@
 
 use super::lanes::{F, LANES, V};
 use super::product::{chunk, times};
-use super::{BLOCK, Block, Grid, Group, STIFF};
+use super::{BLOCK, Block, Columns, Grid, Group, Part, STIFF};
 use pulp::{Simd, WithSimd};
 
 /// Numbers of a link of a chain: the inverse block, m and b of the edge to the next.
@@ -41,19 +41,14 @@ impl Threads {
         }
     }
 
-    /// The lists of weft factors for parts of the groups, to be filled.
-    pub fn weft_parts(&mut self, parts: &[std::ops::Range<usize>]) -> Vec<&mut [f32]> {
-        let ends = parts.iter().map(|p| self.starts[p.end] * LINK * LANES);
-        split(&mut self.weft, ends)
+    /// The lists of weft factors for each part of the rows, to be filled.
+    pub fn weft_parts(&mut self, parts: &[Part]) -> Vec<&mut [f32]> {
+        split(&mut self.weft, parts.iter().map(|p| self.starts[p.groups.end] * LINK * LANES))
     }
 
-    /// The lists of warp factors for parts of the blocks of columns, to be filled.
-    pub fn warp_parts(&mut self, grid: &Grid, parts: &[std::ops::Range<usize>]) -> Vec<&mut [f32]> {
-        let ends = parts.iter().map(|p| {
-            let blocks = &grid.blocks[..p.end];
-            blocks.last().map_or(0, |b| b.first / LANES + b.rows) * LINK * LANES
-        });
-        split(&mut self.warp, ends)
+    /// The lists of warp factors for each part of the columns, to be filled.
+    pub fn warp_parts(&mut self, columns: &[Columns]) -> Vec<&mut [f32]> {
+        split(&mut self.warp, columns.iter().map(|c| c.end * LINK * LANES))
     }
 
     /// The weft factor of one group of rows.
@@ -167,8 +162,8 @@ pub struct FactorWarp<'a, 'b> {
     pub grid: &'a Grid,
     /// 1 for knots that are solved for.
     pub free: &'a [f32],
-    /// Blocks of the part.
-    pub blocks: std::ops::Range<usize>,
+    /// The part of the columns.
+    pub columns: &'a Columns,
     /// Their factors.
     pub links: &'b mut [f32],
 }
@@ -178,7 +173,7 @@ impl WithSimd for FactorWarp<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
         let mut links = self.links.chunks_exact_mut(LINK * LANES);
-        for block in &self.grid.blocks[self.blocks] {
+        for block in &self.grid.blocks[self.columns.blocks.clone()] {
             let mut own: Vec<&mut [f32]> = links.by_ref().take(block.rows).collect();
             for lane in (0..LANES).step_by(F::<S>::COUNT) {
                 let mut chain = Chain::new(s);
@@ -201,8 +196,8 @@ pub struct FactorWeft<'a, 'b> {
     pub grid: &'a Grid,
     /// 1 for knots that are solved for.
     pub free: &'a [f32],
-    /// Groups of the part.
-    pub groups: std::ops::Range<usize>,
+    /// The part of the rows.
+    pub part: &'a Part,
     /// Their factors.
     pub links: &'b mut [f32],
 }
@@ -212,7 +207,7 @@ impl WithSimd for FactorWeft<'_, '_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
         let mut links = self.links.chunks_exact_mut(LINK * LANES);
-        for group in &self.grid.groups[self.groups] {
+        for group in &self.grid.groups[self.part.groups.clone()] {
             let mut own: Vec<&mut [f32]> = links.by_ref().take(group.stride).collect();
             // First the numbers are brought from rows into lanes.
             for (column, link) in own.iter_mut().enumerate() {
