@@ -13,6 +13,7 @@
 
 use super::weld::Weld;
 use crate::mesh::compiled::Compiled;
+use nalgebra::Vector3;
 
 /// One term of bending.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,11 +45,39 @@ impl Fold {
         fold
     }
 
+    /// How far it is bent, Σ cᵢ xᵢ: twice the sine of half the angle for one that is not stretched.
+    pub fn bend(&self, x: &[Vector3<f64>]) -> Vector3<f64> {
+        self.terms().fold(Vector3::zeros(), |sum, (k, w)| sum + x[k as usize] * w)
+    }
+
+    /// By how much the energy of a fold is greater than ½ s |Σ cᵢ xᵢ|²: to its angle θ belongs
+    /// 2 s tan² θ/2 (Grinspun, Hirani, Desbrun and Schröder 2003, in the form of Tamstorf and
+    /// Grinspun 2013), which lets no fold lie flat on itself, where the linear term for all its
+    /// size has lost its grip.
+    pub fn sharpness(bend: &Vector3<f64>) -> f64 {
+        let square = bend.norm_squared() / 4.0;
+        if square <= SHARPEST {
+            return 1.0 / (1.0 - square);
+        }
+        // From here on the energy grows as its slope was.
+        let rest = 1.0 - SHARPEST;
+        (SHARPEST / rest + (square - SHARPEST) / (rest * rest)) / square
+    }
+
+    /// The slope of that energy as a multiple of the linear term's.
+    pub fn firmness(bend: &Vector3<f64>) -> f64 {
+        let rest = 1.0 - (bend.norm_squared() / 4.0).min(SHARPEST);
+        1.0 / (rest * rest)
+    }
+
     /// Its knots and weights.
     pub fn terms(&self) -> impl Iterator<Item = (u32, f64)> + Clone + '_ {
         self.knots.iter().copied().zip(self.weights).take(self.count)
     }
 }
+
+/// Square of the sine of half the angle up to which a fold becomes firmer: 127°.
+const SHARPEST: f64 = 0.8;
 
 /// A face at an edge, as bending sees it.
 #[derive(Clone, Copy, Debug)]
@@ -174,4 +203,29 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
         }
     }
     folds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Up to the sharpest angle the energy is 2 s tan² θ/2, and everywhere the force is its slope:
+    /// central differences over 1e-6 of the way are good to 1e-9 of a smooth energy of order 1.
+    #[test]
+    fn a_sharp_fold_resists_by_the_tangent() {
+        let energy = |bend: f64| {
+            let bend = Vector3::new(bend, 0.0, 0.0);
+            0.5 * bend.norm_squared() * Fold::sharpness(&bend)
+        };
+        for degrees in [5.0f64, 60.0, 120.0, 140.0, 175.0] {
+            let half = (0.5 * degrees).to_radians();
+            let bend = 2.0 * libm::sin(half);
+            if degrees < 126.0 {
+                assert!((energy(bend) / (2.0 * libm::tan(half).powi(2)) - 1.0).abs() < 1e-12);
+            }
+            let slope = (energy(bend + 1e-6) - energy(bend - 1e-6)) / 2e-6;
+            let force = bend * Fold::firmness(&Vector3::new(bend, 0.0, 0.0));
+            assert!((slope / force - 1.0).abs() < 1e-8, "{degrees} {slope} {force}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The cloth's own forces and stiffness, gathered in the system matrix.
 
+use super::bending::Fold;
 use super::cloth::Cloth;
 use super::matrix::{Matrix, ROWS, add, add_scalar};
 use super::shear::ENDS;
@@ -18,9 +19,11 @@ pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
     let folds: f64 = cloth
         .folds
         .iter()
-        .map(|f| {
-            let sum = f.terms().fold(Vector3::zeros(), |s, (k, w)| s + at(k) * w);
-            0.5 * f.stiffness * sum.norm_squared()
+        .zip(0..)
+        .map(|(f, number)| {
+            let bend = f.bend(x);
+            let sharp = if number < cloth.regular[2] { 1.0 } else { Fold::sharpness(&bend) };
+            0.5 * f.stiffness * bend.norm_squared() * sharp
         })
         .sum();
     springs + cells + triangles + folds
@@ -151,5 +154,35 @@ fn bend(
         .collect();
     for (knot, sum) in knots.iter().zip(bent) {
         force[*knot as usize] -= sum;
+    }
+    sharpen(cloth, knots, x, scale, matrix, force);
+}
+
+/// What sharp folds of the rim resist more than their linear terms say; see [`Fold::firmness`].
+fn sharpen(
+    cloth: &Cloth,
+    knots: &[u32],
+    x: &Places,
+    scale: f64,
+    matrix: &mut Matrix,
+    force: &mut [Vector3<f64>],
+) {
+    let folds = &cloth.folds[cloth.regular[2]..];
+    let bent: Vec<Vector3<f64>> =
+        folds.par_iter().with_min_len(ROWS).map(|fold| fold.bend(x)).collect();
+    let row = |knot: u32| knots.binary_search(&knot).map_or(u32::MAX, |i| i as u32);
+    for (fold, bend) in folds.iter().zip(bent) {
+        let more = fold.stiffness * (Fold::firmness(&bend) - 1.0);
+        if more < 1e-3 * fold.stiffness {
+            continue;
+        }
+        for (i, wi) in fold.terms() {
+            force[i as usize] -= bend * (more * wi);
+            for (j, wj) in fold.terms().filter(|(j, _)| *j != i) {
+                if let Some(slot) = matrix.pattern.slot(row(i), row(j)) {
+                    add_scalar(&mut matrix.off[slot as usize], more * wi * wj * scale);
+                }
+            }
+        }
     }
 }

@@ -159,6 +159,10 @@ pub fn dress(
                     let weld = Weld::new(compiled.particles.len(), seams());
                     shop = Workshop::new(compiled, surfaces, skin, weld, &places);
                     sewn = true;
+                    let pressed = schedule::press(&mut shop);
+                    let course = course.and_then(|course| {
+                        pressed.map(|p| Course { steps: course.steps + p.steps, ..course })
+                    });
                     ("sew", course)
                 }
                 Phase::Settle { speed, within, .. } => {

@@ -22,6 +22,10 @@ pub struct Course {
 /// Most steps to close the seams.
 const SEWING_STEPS: usize = 600;
 
+/// Most steps to press them, and the speed at which they are flat, m/s.
+const PRESSING_STEPS: usize = 90;
+const PRESSED: f64 = 0.01;
+
 /// Time for which falling is left to itself, s, so that folds form as they would.
 const FREE: f64 = 0.8;
 
@@ -75,6 +79,33 @@ pub fn sew(
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
         add(&mut course, taken);
+    }
+    Ok(course)
+}
+
+/// Presses seams that have just been sewn: without weight and without layers in each other's way the cloth
+/// smooths out what closing them has folded over.
+///
+/// # Errors
+/// [`Stuck`] from the step.
+pub fn press(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
+    let mut course = Course::default();
+    while course.steps < PRESSING_STEPS {
+        let taken = shop.step(&Manner {
+            dt: 1.0 / 30.0,
+            gravity: 0.0,
+            air: 0.0,
+            calm: 3.0,
+            grip: 0.0,
+            layers: false,
+            aim: Aim { tolerance: 1e-2, most: 200 },
+            ..Manner::default()
+        })?;
+        add(&mut course, taken);
+        if taken.speed < PRESSED {
+            course.reached = true;
+            break;
+        }
     }
     Ok(course)
 }

@@ -118,7 +118,6 @@ impl System {
             q: three(n),
             grid,
             rim,
-            ..System::default()
         }
     }
 
