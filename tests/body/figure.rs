@@ -270,6 +270,30 @@ fn places_lie_where_a_tailor_looks_for_them() {
     }
 }
 
+/// Below her waist a woman widens soon: half way down to the hip her girth has gained 60 to 85 % of the
+/// difference, which is why skirts take darts (the high hip of size tables such as ASTM D5585).
+#[test]
+fn a_woman_widens_soon_below_her_waist() {
+    for size in ["EU 34", "EU 38", "EU 46"] {
+        let (_, asked) = people().into_iter().find(|(name, _)| *name == size).unwrap();
+        let lady = mannequin(&asked).unwrap();
+        let level = |name: &str| match lady.landmarks.get(name) {
+            Some(Landmark::Ring { centre, .. }) => centre.y,
+            other => panic!("{name} is {other:?}"),
+        };
+        let middle = 0.5 * (level("waist") + level("hip"));
+        let band: Vec<[f64; 2]> = lady
+            .vertices
+            .iter()
+            .filter(|p| (p.y - middle).abs() < 0.004 && p.x.abs() < 0.3)
+            .map(|p| [p.x, p.z])
+            .collect();
+        let [waist, hip] = ["waist", "hip"].map(|name| girth(&lady, name));
+        let gained = (tape::girth(&band) - waist) / (hip - waist);
+        assert!((0.6..0.85).contains(&gained), "{size}: {gained}");
+    }
+}
+
 #[test]
 fn heights_are_as_asked() {
     let body = mannequin(&request(Figure::Female, EU_38)).unwrap();
