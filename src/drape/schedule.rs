@@ -75,7 +75,7 @@ pub fn sew(
             grip: 0.05,
             sewing: strength,
             near: 0.008,
-            layers: false,
+            layers: true,
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
         add(&mut course, taken);

@@ -98,17 +98,12 @@ pub struct Workshop<'a> {
     pub contact: Contact,
     /// Contact of cloth with cloth; taken up with the first step that asks for it.
     layers: Option<Layers>,
-    /// Steps until tangles are looked for again.
-    until_look: u32,
     skin: &'a dyn Skin,
     system: System,
 }
 
 /// Most times a step is halved.
 const HALVINGS: u32 = 8;
-
-/// Steps from one search for tangles to the next, while there are any.
-const LOOK: u32 = 5;
 
 /// Most times a step is solved again for contact it ran into.
 const PASSES: usize = 3;
@@ -152,7 +147,6 @@ impl<'a> Workshop<'a> {
             holds,
             contact,
             layers: None,
-            until_look: 0,
             skin,
         }
     }
@@ -214,7 +208,7 @@ impl<'a> Workshop<'a> {
         let mut start = self.x.clone();
         let mut speeds = self.v.clone();
         let pinned = self.holds.move_pins(dt, &mut start, &mut speeds);
-        let base = self.assemble(&start, &speeds, manner);
+        let mut base = self.assemble(&start, &speeds, manner);
         let mut ahead: Vec<Vector3<f64>> =
             speeds.iter().map(|v| v * dt + down * (dt * dt)).collect();
         // Friction is judged by the last step's movement: gravity's own share is not slid yet.
@@ -222,12 +216,14 @@ impl<'a> Workshop<'a> {
         let mut touches = Touches::default();
         let mut layers = self.layers.take().filter(|_| manner.layers);
         if manner.layers {
-            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, &start));
+            let sewn = self.sewing.pairs.iter().map(|s| s.knots);
+            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, sewn, &start));
             if layers.any_tangled() {
-                self.until_look = self.until_look.checked_sub(1).unwrap_or_else(|| {
-                    layers.find_tangles(&start);
-                    LOOK
-                });
+                layers.find_tangles(&start);
+                for (knot, pull, block) in layers.untangle(&self.cloth, &start) {
+                    base.0[knot as usize] += block;
+                    base.1[knot as usize] += pull;
+                }
             }
             touches = layers.touch(&self.cloth, &start, &ahead, &slide);
         }

@@ -7,13 +7,15 @@
 //!
 //! Every knot and every edge belongs to one of its faces, so that each pair of features is met
 //! once, in the pair of faces that own it (Curtis, Tamstorf and Manocha 2008). Faces that cut each
-//! other already are left alone until they have come free: there is no right side of them to push
-//! to.
+//! other already keep no distance, there being no right side of them to push to, but are drawn
+//! apart by the line in which they cut (see `untangle`).
 
 pub mod touch;
 pub mod tree;
+mod untangle;
 
 use super::cloth::Cloth;
+use super::hold::Pull;
 use super::proximity::Pair;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -83,12 +85,16 @@ pub struct Layers {
     slack: f64,
     /// Knots of faces that cut each other.
     tangled: Vec<bool>,
-    any_tangled: bool,
+    /// Pairs of faces that cut each other.
+    cuts: Vec<[[u32; 3]; 2]>,
+    /// Knots of seams still open: their edges must come together.
+    open: Vec<bool>,
 }
 
 impl Layers {
-    /// Takes up a cloth; the faces are looked through for such as cut each other already.
-    pub fn new(cloth: &Cloth, x: &[V]) -> Self {
+    /// Takes up a cloth, of whose seams the given pairs of knots are still open; the faces are
+    /// looked through for such as cut each other already.
+    pub fn new(cloth: &Cloth, sewn: impl Iterator<Item = [u32; 2]>, x: &[V]) -> Self {
         let faces = cloth.faces.clone();
         let mut knot_taken = vec![false; cloth.knots()];
         let mut edge_taken: BTreeSet<[u32; 2]> = BTreeSet::new();
@@ -116,19 +122,23 @@ impl Layers {
             apart: apart.collect(),
             widest: SLACK * cloth.cell,
             tangled: vec![false; cloth.knots()],
+            open: vec![false; cloth.knots()],
             ..Layers::default()
         };
+        for knot in sewn.flatten() {
+            layers.open[knot as usize] = true;
+        }
         layers.find_tangles(x);
         layers
     }
 
-    /// Marks the knots of faces that cut each other. Gives how many pairs of faces do.
-    pub fn find_tangles(&mut self, x: &[V]) -> usize {
+    /// Finds the faces that cut each other.
+    pub fn find_tangles(&mut self, x: &[V]) {
         let still = vec![V::zeros(); x.len()];
         let reach: Vec<Extent> = x.iter().map(|x| Extent::of_way(x, &V::zeros(), 0.0)).collect();
         self.tree.fit(&self.faces, x, &still, &reach);
         let faces = &self.faces;
-        let cut = self.tree.pairs(|first, second, found: &mut Vec<[u32; 2]>| {
+        let cut = self.tree.pairs(|first, second, found: &mut Vec<[[u32; 3]; 2]>| {
             for a in first {
                 for b in second {
                     let (f, g) = (&faces[*a as usize], &faces[*b as usize]);
@@ -136,29 +146,41 @@ impl Layers {
                     if !f.iter().any(|k| g.contains(k))
                         && super::crossing::cut(&corners(f), &corners(g))
                     {
-                        found.push([*a, *b]);
+                        found.push([*f, *g]);
                     }
                 }
             }
         });
         self.tangled.fill(false);
-        for f in cut.iter().flatten() {
-            for k in self.faces[*f as usize] {
-                self.tangled[k as usize] = true;
-            }
+        for k in cut.iter().flatten().flatten() {
+            self.tangled[*k as usize] = true;
         }
-        self.any_tangled = !cut.is_empty();
-        cut.len()
+        self.cuts = cut;
+        // The tree stands for these places now.
+        self.at.clear();
+        self.list.clear();
     }
 
     /// Whether any faces cut each other when last looked through.
     pub fn any_tangled(&self) -> bool {
-        self.any_tangled
+        !self.cuts.is_empty()
+    }
+
+    /// Pulls that draw faces which cut each other apart.
+    pub fn untangle(&self, cloth: &Cloth, x: &[V]) -> Vec<Pull> {
+        let stiffness = |k: u32| STIFFNESS * cloth.area[k as usize];
+        untangle::pulls(&self.cuts, x, stiffness, |k| self.apart[k as usize])
     }
 
     /// Whether a pair is to be kept apart at all.
     fn free(&self, pair: &Pair) -> bool {
-        !self.any_tangled || !pair.knots().iter().any(|k| self.tangled[*k as usize])
+        let knots = pair.knots();
+        if self.any_tangled() && knots.iter().any(|k| self.tangled[*k as usize]) {
+            return false;
+        }
+        let (first, second) = knots.split_at(pair.split());
+        let open = |knots: &[u32]| knots.iter().any(|k| self.open[*k as usize]);
+        !(open(first) && open(second))
     }
 
     /// Distance that a pair is to keep, m.
