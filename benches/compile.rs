@@ -41,6 +41,7 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         pins: Vec::new(),
         schedule: Vec::new(),
         pictures: Vec::new(),
+        grade: Vec::new(),
     }
 }
 

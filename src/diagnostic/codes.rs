@@ -89,6 +89,7 @@ pub const CODES: &[Code] = &[
     code("E0804", "steps of a drape in the wrong order"),
     code("E0805", "something that must be worn below is missing"),
     code("E0806", "a check that failed"),
+    code("E0807", "a requirement that does not hold"),
     code("E0811", "too many particles"),
     code("E0812", "a panel smaller than its grid"),
     code("E0813", "an outline that encloses no cloth"),

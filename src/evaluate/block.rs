@@ -1,6 +1,7 @@
 //! Blocks: declarations hoisted, loops and choices unrolled, copies merged.
 
 use super::Evaluator;
+use super::choice::MATCH;
 use super::fields::{Arg, Fields, Phrase, bare};
 use super::item::{ItemId, declares};
 use super::panel::operation::SHAPES;
@@ -26,7 +27,16 @@ pub(super) struct Merged<'t> {
     /// Edges that replace edges of a copied outline, by label.
     pub edges: Vec<&'t Statement>,
     /// Parameters that the copy sets.
-    pub settings: Vec<(&'t Name, &'t Expr)>,
+    pub settings: Vec<Setting<'t>>,
+}
+
+/// A parameter set by a copy or by a part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting<'t> {
+    pub name: &'t Name,
+    pub value: &'t Expr,
+    /// Where its names are looked up; around the copy if nothing is said.
+    pub scope: Option<ScopeId>,
 }
 
 /// The name by which a line of a copy replaces a line of the original.
@@ -91,7 +101,7 @@ impl<'t> Evaluator<'t> {
                 });
                 if parameter {
                     if let [Item::Expr(value)] = phrase.as_slice() {
-                        merged.settings.push((key, value));
+                        merged.settings.push(Setting { name: key, value, scope: None });
                         continue;
                     }
                 }
@@ -248,6 +258,15 @@ impl<'t> Evaluator<'t> {
                         self.walk(&lines, branch, out);
                     }
                 }
+                StatementKind::Line { word, phrase, block: Some(block) } if word.text == MATCH => {
+                    match self.arm(word, phrase, block, inner) {
+                        Some(lines) => {
+                            let branch = self.new_scope(Some(inner));
+                            self.walk(&lines, branch, out);
+                        }
+                        None => self.poison_arms(block, out),
+                    }
+                }
                 _ => out.phrases.extend(phrases),
             }
         }
@@ -262,13 +281,13 @@ impl<'t> Evaluator<'t> {
     /// What was set for a parameter of this block: by a copy, or from outside.
     fn setting(&mut self, name: &Name, block: ScopeId) -> Option<(&'t Expr, ScopeId)> {
         let by_copy = self.settings.get(&block).and_then(|settings| {
-            settings.iter().find(|(key, _)| key.text == name.text).map(|(_, value)| *value)
+            settings.iter().find(|setting| setting.name.text == name.text).copied()
         });
-        if let Some(value) = by_copy {
-            let around = self.scopes.get(block.0).and_then(|scope| scope.parent).unwrap_or(block);
-            return Some((value, around));
+        if let Some(Setting { value, scope, .. }) = by_copy {
+            let around = self.scopes.get(block.0).and_then(|scope| scope.parent);
+            return Some((value, scope.or(around).unwrap_or(block)));
         }
-        if name.span.file != self.root {
+        if name.span.file != self.root || self.in_block(block) {
             return None;
         }
         let asked = self.options.iter().find(|asked| asked.name.text == name.text)?;
@@ -327,7 +346,9 @@ impl<'t> Evaluator<'t> {
                 };
                 let what = self.fitted(outer, &name.text).unwrap_or(what);
                 let id = self.declare(inner, &name.text, name.span, inner, what);
-                self.parameters.push(id);
+                if !self.in_block(outer) {
+                    self.parameters.push(id);
+                }
                 Vec::new()
             }
             StatementKind::Function { name, formals, kind: said, value } => {
@@ -348,6 +369,7 @@ impl<'t> Evaluator<'t> {
                 Vec::new()
             }
             StatementKind::For { .. } | StatementKind::If { .. } => Vec::new(),
+            StatementKind::Line { word, block: Some(_), .. } if word.text == MATCH => Vec::new(),
             StatementKind::Property { key, phrase, drawing, block } => {
                 let table = vocabulary(kind);
                 let written = |key, label, items, drawing| Written {
@@ -429,6 +451,10 @@ impl<'t> Evaluator<'t> {
                 }
             }
             if let (Some(kind), true) = (word.block, declares(word.form)) {
+                if kind == Kind::Wearer && self.inherits_wearer(out.scope, phrase.as_ref()) {
+                    next = matched.next;
+                    continue;
+                }
                 phrase = phrase.and_then(|phrase| self.declare_item(out.scope, kind, phrase));
             }
             if phrase.is_none() {

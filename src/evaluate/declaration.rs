@@ -4,11 +4,12 @@ use super::Evaluator;
 use super::fields::{Arg, bare};
 use super::item::ItemId;
 use super::scope::{Binding, BindingId, ScopeId, What};
-use super::value::Value;
+use super::value::{Chosen, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Expr, ExprKind, Name};
 use crate::units::Quantity;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 impl<'t> Evaluator<'t> {
     /// Adds `name[number]` to the items of that name.
@@ -100,19 +101,29 @@ impl<'t> Evaluator<'t> {
         let (expr, at) = match (set, default) {
             (Some((expr, at)), _) => (expr, at),
             (None, Some(expr)) => (expr, scope),
+            (None, None) if self.is_lone(scope) => return Value::Poison,
             (None, None) => {
                 let wanted =
                     kind.map_or("a value".to_owned(), |kind| super::read::kind_title(&kind.text));
-                self.tell(
-                    Diagnostic::new("E0208", format!("`{name}` must be given"))
+                let told = match self.part_around(scope) {
+                    Some(part) => {
+                        let title = self.item(part).name.clone();
+                        Diagnostic::new("E0208", format!("part `{title}` must be given `{name}`"))
+                            .at(self.item(part).span, "missing here")
+                            .at(span, format!("{wanted} is wanted"))
+                            .help(format!("`part {title} = … {{ {name}: … }}`"))
+                    }
+                    None => Diagnostic::new("E0208", format!("`{name}` must be given"))
                         .at(span, format!("{wanted} is wanted"))
                         .help(format!("`param {name} = …`, or set it from outside")),
-                );
+                };
+                self.tell(told);
                 return Value::Poison;
             }
         };
         if let Some(options) = options {
-            return self.option(expr, &options, &name, range.map_or(span, |range| range.span));
+            let range = range.map_or(span, |range| range.span);
+            return self.option((expr, at), &options, &name, range);
         }
         let of = self.snippet(span);
         let value = self.of_kind(Arg { expr, scope: at, of }, kind);
@@ -190,11 +201,36 @@ impl<'t> Evaluator<'t> {
     }
 
     /// A parameter with options: `param kind = knife in [knife, box]`.
-    fn option(&mut self, expr: &'t Expr, options: &[&'t Name], name: &str, range: Span) -> Value {
+    fn option(
+        &mut self,
+        (expr, scope): (&'t Expr, ScopeId),
+        options: &[&'t Name],
+        name: &str,
+        range: Span,
+    ) -> Value {
+        let is_option = |word: &str| options.iter().any(|option| option.text == word);
+        let chosen = |word: &str| {
+            Value::Word(Rc::new(Chosen {
+                word: word.to_owned(),
+                options: options.iter().map(|option| option.text.clone()).collect(),
+                name: name.to_owned(),
+            }))
+        };
         match bare(expr) {
-            Some(word) if options.iter().any(|option| option.text == word.text) => {
-                Value::Word(word.text.clone())
-            }
+            Some(word) if is_option(&word.text) => chosen(&word.text),
+            // A parameter of the caller that is handed on.
+            Some(word) if self.find(scope, &word.text).is_some() => match self.eval(expr, scope) {
+                Value::Word(other) if is_option(&other.word) => chosen(&other.word),
+                Value::Poison => Value::Poison,
+                _ => {
+                    self.tell(
+                        Diagnostic::new("E0303", format!("`{name}` is none of its options"))
+                            .at(expr.span, "this is none of them")
+                            .at(range, "the options"),
+                    );
+                    Value::Poison
+                }
+            },
             found => {
                 let text = found.map_or("", |name| name.text.as_str());
                 let label = self.meant(text, options.iter().map(|option| option.text.as_str()));

@@ -95,7 +95,7 @@ impl<'t> Evaluator<'t> {
             ExprKind::Unread => Value::Poison,
             ExprKind::Number { value, unit } => self.literal(*value, unit.as_ref(), expr.span),
             ExprKind::Colour(parts) => Value::Colour(Colour(*parts)),
-            ExprKind::Text(text) => Value::Text(text.clone()),
+            ExprKind::Text(text) => self.filled(text, scope, expr.span),
             ExprKind::Group(inner) => self.eval(inner, scope),
             ExprKind::Point(parts) => self.vector(parts, scope, expr.span),
             ExprKind::List(parts) => {
@@ -300,6 +300,7 @@ impl<'t> Evaluator<'t> {
             Value::Item(id) => match self.item(id).kind {
                 Kind::Wearer => self.measure(id, name),
                 Kind::Panel | Kind::Cloth => self.panel_member(id, None, name, at),
+                Kind::Part => self.part_member(id, name, at),
                 kind => {
                     let title = format!("{} `{}`", kind.noun(), self.item(id).name);
                     self.no_member(&title, name, std::iter::empty())
@@ -308,6 +309,10 @@ impl<'t> Evaluator<'t> {
             Value::Items(ids) => self.members_of_panels(&ids, name, at),
             Value::Half(id, which) => self.panel_member(id, Some(which), name, at),
             Value::Edges(edges) => self.edge_member(edges, name, at),
+            Value::List(values) => match name.text.as_str() {
+                "count" => Value::number(values.len() as f64),
+                _ => self.no_member("a list", name, ["count"].into_iter()),
+            },
             Value::Measure { wearer, name: measure } => {
                 // `lady.knee.left` is the same as `lady.left_knee`.
                 self.measure_member(wearer, &measure, name)
@@ -370,6 +375,9 @@ impl<'t> Evaluator<'t> {
             if let Some(members) = family {
                 return self.family_members(name, &members, numbers, scope);
             }
+        }
+        if let Some((name, members)) = self.part_family(base, scope) {
+            return self.family_members(name, &members, numbers, scope);
         }
         let value = self.eval(base, scope);
         let [number] = numbers else {

@@ -4,9 +4,9 @@ use super::Evaluator;
 use super::fields::{Fields, Phrase};
 use super::item::{ItemId, Made};
 use super::words::Kind;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::scene::{BodyRequest, Figure};
-use crate::syntax::tree::{ExprKind, Item};
+use crate::syntax::tree::{Expr, ExprKind, Item};
 use crate::units::Dimension;
 use std::collections::BTreeMap;
 
@@ -129,6 +129,10 @@ pub(super) fn wearer(ev: &mut Evaluator<'_>, id: ItemId) -> Option<BodyRequest> 
     let base = ev.item_named(arg, Kind::Body)?;
     let Made::Body(body) = ev.make(base, arg.expr.span)? else { return None };
     let fields = ev.open_item(id)?;
+    let asked = match ev.size.zip(body.sizes) {
+        Some((asked, table)) => Some(row(ev, table, asked, phrase.span)?),
+        None => None,
+    };
     // Where a size or a measure is wrong, the body's own serve to look for further mistakes.
     let mut measures = body.measures.clone();
     if let Some(phrase) = fields.get("size").cloned() {
@@ -138,6 +142,11 @@ pub(super) fn wearer(ev: &mut Evaluator<'_>, id: ItemId) -> Option<BodyRequest> 
     let body_name = ev.item(base).name.clone();
     let own = own_measures(ev, &fields, Some((&body_name, &known)));
     measures.extend(own.unwrap_or_default());
+    if let Some(asked) = asked {
+        // Another size is another person: the measures of the one in the text do not count.
+        measures = body.measures.clone();
+        measures.extend(asked);
+    }
     if measures.is_empty() {
         return None;
     }
@@ -227,18 +236,77 @@ fn size<'t>(
         );
         return None;
     };
-    let Made::Sizes(sizes) = ev.make(table, phrase.span)? else { return None };
+    row(ev, table, &wanted, phrase.span)
+}
+
+/// The measures of a size in a table.
+fn row(
+    ev: &mut Evaluator<'_>,
+    table: ItemId,
+    wanted: &str,
+    at: Span,
+) -> Option<BTreeMap<String, f64>> {
+    let Made::Sizes(sizes) = ev.make(table, at)? else { return None };
+    let wanted = one_spaced(wanted);
     let Some((_, values)) = sizes.rows.iter().find(|(name, _)| *name == wanted) else {
         let names: Vec<&str> = sizes.rows.iter().map(|(name, _)| name.as_str()).collect();
         let title = ev.item(table).name.clone();
         ev.tell(
             Diagnostic::new("E0305", format!("there is no size `{wanted}` in `{title}`"))
-                .at(phrase.span, "here")
+                .at(at, "here")
                 .help(format!("there are {}", names.join(", "))),
         );
         return None;
     };
     Some(sizes.measures.iter().cloned().zip(values.iter().copied()).collect())
+}
+
+impl<'t> Evaluator<'t> {
+    /// The sizes for which a garment is drawn: `grade: EU 34, EU 36`, or `all` of the table.
+    pub(super) fn grade(&mut self, fields: &Fields<'t>) -> Vec<String> {
+        let Some(phrase) = fields.get("grade").cloned() else { return Vec::new() };
+        let wearer = fields.all("wearer").find_map(|phrase| phrase.item);
+        let base = wearer.and_then(|id| self.item(id).phrase.value("="));
+        let Some(base) = base.and_then(|arg| self.item_named(arg, Kind::Body)) else {
+            if wearer.is_none() && !fields.spoils("wearer") {
+                self.tell(
+                    Diagnostic::new("E0208", "`grade` wants a wearer whose sizes they are")
+                        .at(phrase.span, "here")
+                        .help("such as `wearer lady = female { size: EU 38 }`"),
+                );
+            }
+            return Vec::new();
+        };
+        let Some(Made::Body(body)) = self.make(base, phrase.span) else { return Vec::new() };
+        let Some(table) = body.sizes else {
+            let name = self.item(base).name.clone();
+            self.tell(
+                Diagnostic::new("E0305", format!("`{name}` has no table of sizes"))
+                    .at(phrase.span, "so it has none of these")
+                    .help("`sizes: NAME` in the body names one"),
+            );
+            return Vec::new();
+        };
+        let Some(Made::Sizes(sizes)) = self.make(table, phrase.span) else { return Vec::new() };
+        let mut wanted: Vec<String> = Vec::new();
+        for item in phrase.rest.split(|item| matches!(item, Item::Comma(_))) {
+            let (Some(first), Some(last)) = (item.first(), item.last()) else { continue };
+            let span = first.span().to(last.span());
+            let name = match first {
+                Item::Expr(Expr { kind: ExprKind::Unread, .. }) => continue,
+                Item::Expr(Expr { kind: ExprKind::Text(text), .. }) => one_spaced(text),
+                _ => one_spaced(self.snippet(span)),
+            };
+            if name == "all" {
+                wanted.extend(sizes.rows.iter().map(|(name, _)| name.clone()));
+            } else if row(self, table, &name, span).is_some() {
+                wanted.push(name);
+            }
+        }
+        let mut seen = std::collections::BTreeSet::new();
+        wanted.retain(|name| seen.insert(name.clone()));
+        wanted
+    }
 }
 
 /// Words with one blank between them.

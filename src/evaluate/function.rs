@@ -25,6 +25,7 @@ const OWN: &[(&str, &str)] = &[
     ("meet", "meet(P, ANGLE, Q, ANGLE): where two straight lines meet"),
     ("arc", "arc(RADIUS, ANGLE): length of an arc"),
     ("radius", "radius(ARC, ANGLE): radius of an arc of that length"),
+    ("match", "match(NAME, OPTION: VALUE, OPTION: VALUE, …)"),
 ];
 
 /// Deepest nesting of calls.
@@ -57,6 +58,9 @@ impl<'t> Evaluator<'t> {
                 let found = self.binding_value(id, name.span);
                 return self.wrong(&found, "a function", name.span);
             }
+        }
+        if name.text == super::choice::MATCH {
+            return self.match_value(arguments, scope, span);
         }
         self.builtin(name, arguments, scope, span)
     }

@@ -26,6 +26,12 @@ pub(super) struct Making {
     pub drafts: BTreeMap<ItemId, Rc<Draft>>,
     /// Where each wearer stands in the garment.
     pub bodies: BTreeMap<ItemId, usize>,
+    /// The fabric of panels that name none.
+    pub cloth: Option<ItemId>,
+    /// The fabric of the first panel, from which parts are cut if nothing else is said.
+    pub first_cloth: Option<ItemId>,
+    /// Whether a fabric was named that is none, which has been told.
+    pub clothless: bool,
     fabrics: BTreeMap<ItemId, usize>,
     /// Whether a part of it is wrong, which has been told. It is looked at all the same, so that
     /// its other mistakes are told too, but not given out.
@@ -47,10 +53,14 @@ impl Making {
                 pins: Vec::new(),
                 schedule: Vec::new(),
                 pictures: Vec::new(),
+                grade: Vec::new(),
             },
             numbers: BTreeMap::new(),
             drafts: BTreeMap::new(),
             bodies: BTreeMap::new(),
+            cloth: None,
+            first_cloth: None,
+            clothless: false,
             fabrics: BTreeMap::new(),
             broken: false,
         }
@@ -78,7 +88,10 @@ impl<'t> Evaluator<'t> {
             garments.extend(made.filter(|_| self.errors() == before));
         }
         self.make_all(self.root);
+        self.look_at_lone_blocks();
+        self.requirements(&fields);
         self.check_names();
+        self.allow();
         if names.is_empty() {
             return garments;
         }
@@ -101,47 +114,68 @@ impl<'t> Evaluator<'t> {
     }
 
     fn garment(&mut self, id: ItemId) -> Option<Garment> {
-        let fields = self.open_item(id)?;
+        let mut fields = self.open_item(id)?;
         let (name, span) = (self.item(id).name.clone(), self.item(id).span);
         let mut making = Making::new(&name, span);
         self.stand(&fields);
-        self.wearers(&fields, &mut making);
+        if let Some(arg) = fields.value("fabric") {
+            making.cloth = self.item_named(arg, Kind::Fabric);
+            making.clothless = making.cloth.is_none();
+            making.broken |= making.clothless;
+        }
+        making.garment.grade = self.grade(&fields);
+        making.broken |= !self.take_parts(&mut fields);
         let cell = match fields.value("grid") {
             Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-4, 1.0),
             None => None,
         };
-        for phrase in fields.all("panel") {
-            let Some(panel) = phrase.item else { continue };
-            self.add_panel(panel, cell, &mut making);
-        }
-        if making.garment.panels.is_empty() && !fields.mentions("panel") {
+        let (drawn, sewn) = self.assemble(&fields, cell, &mut making);
+        if making.garment.panels.is_empty() && !fields.mentions("panel") && !fields.mentions("part")
+        {
             self.tell(
                 Diagnostic::new("E0208", format!("garment `{name}` has no panels"))
                     .at(span, "here")
                     .help("such as `panel front of denim { … }`"),
             );
         }
-        let drawn = fields
-            .all("panel")
-            .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
-        let clear = ["panel", "place", "seam"].into_iter().all(|word| !fields.spoils(word));
-        making.broken |= !drawn || !fields.spoiled.is_empty();
-        self.places(&fields, &mut making);
-        let sewn = self.seams(&fields, &mut making);
-        self.holds(&fields, &mut making);
-        self.checks(&fields);
+        let clear = ["panel", "part", "place", "seam"].into_iter().all(|word| !fields.spoils(word));
         self.schedule(&fields, &mut making);
         self.pictures(&fields, &mut making);
-        making.broken |= !sewn;
         if drawn && sewn && clear {
             self.led(&mut making);
         }
         (!making.broken).then_some(making.garment)
     }
 
+    /// Puts the pieces of a garment or a block together; whether all are drawn, and whether all
+    /// is sewn.
+    pub(super) fn assemble(
+        &mut self,
+        fields: &Fields<'t>,
+        cell: Option<f64>,
+        making: &mut Making,
+    ) -> (bool, bool) {
+        self.wearers(fields, making);
+        for phrase in fields.all("panel") {
+            let Some(panel) = phrase.item else { continue };
+            self.add_panel(panel, cell, making);
+        }
+        let drawn = fields
+            .all("panel")
+            .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
+        making.broken |= !drawn || !fields.spoiled.is_empty();
+        self.places(fields, making);
+        let sewn = self.seams(fields, making);
+        self.holds(fields, making);
+        self.checks(fields);
+        self.requirements(fields);
+        making.broken |= !sewn;
+        (drawn, sewn)
+    }
+
     /// How panels stand to the wearer, read from the words of the `place` lines before any panel
     /// is drawn: it names the halves of unfolded pieces.
-    fn stand(&mut self, fields: &Fields<'t>) {
+    pub(super) fn stand(&mut self, fields: &Fields<'t>) {
         for phrase in fields.all("place") {
             let standing = if phrase.says("before") {
                 Standing::Before
@@ -157,6 +191,14 @@ impl<'t> Evaluator<'t> {
                 super::scope::What::Family(members) => members.values().copied().collect(),
                 _ => continue,
             };
+            if ids.iter().any(|id| self.item(*id).kind == Kind::Part) {
+                // What the garment says of a part's panel goes before what its block says.
+                let Some(&head) = phrase.head.first() else { continue };
+                for id in self.placed_in_part(head, phrase.scope) {
+                    self.sides.insert(id, standing);
+                }
+                continue;
+            }
             for id in ids {
                 self.sides.entry(id).or_insert(standing);
             }
@@ -182,7 +224,13 @@ impl<'t> Evaluator<'t> {
     fn add_panel(&mut self, id: ItemId, cell: Option<f64>, making: &mut Making) {
         let span = self.item(id).span;
         let Some(draft) = self.panel(id, span) else { return };
-        if draft.fabric.is_none() && !self.says_fabric(id) {
+        let says = self.says_fabric(id);
+        let fabric = match draft.fabric {
+            None if !says => self.fabric_around(id, making),
+            own => own,
+        };
+        making.clothless |= draft.fabric.is_none() && says;
+        if fabric.is_none() && !making.clothless && !self.is_lone(self.item(id).scope) {
             self.tell(
                 Diagnostic::new("E0208", format!("panel `{}` must be given a fabric", draft.name))
                     .at(span, "missing here")
@@ -190,7 +238,8 @@ impl<'t> Evaluator<'t> {
             );
         }
         // A piece without its fabric is still sewn, to see whether its seams are right.
-        let fabric = draft.fabric.and_then(|fabric| self.fabric_number(fabric, span, making));
+        making.first_cloth = making.first_cloth.or(fabric);
+        let fabric = fabric.and_then(|fabric| self.fabric_number(fabric, span, making));
         making.broken |= fabric.is_none();
         let fabric = fabric.unwrap_or_default();
         for (number, piece) in draft.pieces.iter().enumerate() {
@@ -261,6 +310,7 @@ impl<'t> Evaluator<'t> {
     fn places(&mut self, fields: &Fields<'t>, making: &mut Making) {
         let mut said: BTreeMap<(ItemId, usize), Span> = BTreeMap::new();
         for phrase in fields.all("place") {
+            self.within = Some((phrase.scope, self.waiting.len()));
             let bodies = making.bodies.clone();
             let Some(placed) = self.placements(phrase, &|id| bodies.get(&id).copied()) else {
                 // The piece is not told to be placed nowhere on top of this mistake.
@@ -369,7 +419,9 @@ impl<'t> Evaluator<'t> {
             }
         }
         let phrases: Vec<Phrase<'t>> = fields.all("seam").cloned().collect();
-        self.sew(&phrases, making)
+        let sewn = self.sew(&phrases, making);
+        self.within = None;
+        sewn
     }
 
     /// A garment that a top-level `picture { of: … }` asks for: a sari over a line, or flat.

@@ -110,10 +110,11 @@ impl<'t> Evaluator<'t> {
     /// `check A = B within L`, `check A < B`
     pub(super) fn checks(&mut self, fields: &Fields<'t>) {
         for phrase in fields.all("check") {
+            self.within = Some((phrase.scope, self.waiting.len()));
             let Some(left) = phrase.arg(0) else { continue };
             let Some(right) = phrase.value("=") else {
                 if self.condition(left) == Some(false) {
-                    self.tell_failed(left);
+                    self.tell_failed(Diagnostic::new("E0806", "check failed"), left);
                 }
                 continue;
             };
@@ -154,15 +155,45 @@ impl<'t> Evaluator<'t> {
         }
     }
 
+    /// `require A < B because "…"`
+    pub(super) fn requirements(&mut self, fields: &Fields<'t>) {
+        for phrase in fields.all("require") {
+            self.within = Some((phrase.scope, self.waiting.len()));
+            let Some(condition) = phrase.arg(0) else { continue };
+            let because = phrase.value("because");
+            if self.condition(condition) != Some(false) {
+                continue;
+            }
+            let reason = because.map(|arg| (self.eval(arg.expr, arg.scope), arg.expr.span));
+            let message = match reason {
+                Some((Value::Text(text), _)) => text,
+                Some((other, span)) => {
+                    self.wrong(&other, "a text", span);
+                    continue;
+                }
+                None => "this must hold, and does not".to_owned(),
+            };
+            self.tell_failed(Diagnostic::new("E0807", message), condition);
+        }
+        self.within = None;
+    }
+
     /// Tells a condition that does not hold, with what its two sides are worth.
-    fn tell_failed(&mut self, check: Arg<'t>) {
-        let mut told = Diagnostic::new("E0806", "check failed");
+    fn tell_failed(&mut self, mut told: Diagnostic, check: Arg<'t>) {
         if let ExprKind::Binary { op, left, right, .. } = &check.expr.kind
             && !matches!(op, BinaryOp::And | BinaryOp::Or)
         {
             for side in [left, right] {
-                if let Some(worth) = self.any_quantity(Arg { expr: side, ..check }) {
-                    told = told.at(side.span, worth.to_string());
+                let worth = match self.eval(side, check.scope) {
+                    Value::Text(text) => Some(text),
+                    Value::Word(chosen) => Some(chosen.word.clone()),
+                    value @ (Value::Quantity(_) | Value::Measure { .. }) => {
+                        self.as_quantity(value, side.span).map(|worth| worth.to_string())
+                    }
+                    _ => None,
+                };
+                if let Some(worth) = worth {
+                    told = told.at(side.span, worth);
                 }
             }
         }

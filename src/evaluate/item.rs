@@ -61,6 +61,8 @@ pub enum Made {
     /// A wearer: the request, and the body it was made from.
     Wearer(Rc<BodyRequest>),
     Panel(Rc<Draft>),
+    /// A part: the scope in which the names of its block stand.
+    Opened(ScopeId),
 }
 
 impl<'t> Evaluator<'t> {
@@ -95,6 +97,10 @@ impl<'t> Evaluator<'t> {
             }
         };
         let shown = number.map_or(name.text.clone(), |n| format!("{}[{n}]", name.text));
+        let shown = match self.parts.get(&into) {
+            Some(&part) => format!("{}.{shown}", self.item(part).name),
+            None => shown,
+        };
         let id = ItemId(self.items.len());
         self.items.push(Item {
             kind,
@@ -132,7 +138,8 @@ impl<'t> Evaluator<'t> {
 
     /// As [`Self::item_named`], for one of several kinds.
     pub fn item_among(&mut self, arg: Arg<'t>, kinds: &[Kind]) -> Option<ItemId> {
-        let libraries: Vec<&str> = kinds.iter().filter_map(|kind| kind.library()).collect();
+        let libraries: Vec<&str> =
+            kinds.iter().flat_map(|kind| kind.libraries()).copied().collect();
         let value = self.eval_with(arg, &libraries);
         match value {
             Value::Poison => None,
@@ -180,6 +187,7 @@ impl<'t> Evaluator<'t> {
             Kind::Wearer => figure::wearer(ev, id).map(|it| Made::Wearer(Rc::new(it))),
             Kind::Cloth => ev.cloth(id).map(|it| Made::Panel(Rc::new(it))),
             Kind::Panel => ev.draft(id).map(|it| Made::Panel(Rc::new(it))),
+            Kind::Part => ev.open_part(id).map(Made::Opened),
             _ => None,
         });
         self.waiting.pop();

@@ -7,6 +7,7 @@
 //! steps for the whole text.
 
 mod block;
+mod choice;
 mod declaration;
 mod drape;
 mod expression;
@@ -19,6 +20,7 @@ pub mod item;
 mod module;
 mod operator;
 pub mod panel;
+mod part;
 mod phrase;
 mod place;
 mod poison;
@@ -34,7 +36,7 @@ pub mod words;
 
 use crate::diagnostic::{Diagnostic, FileId, Span, in_order};
 use crate::garment::Garment;
-use crate::syntax::tree::{Expr, Name};
+use crate::syntax::tree::Expr;
 use crate::units::Quantity;
 use crate::world::World;
 use item::{Item, ItemId};
@@ -49,6 +51,8 @@ pub struct Options {
     pub set: Vec<(String, String)>,
     /// Names of the garments and scenes that are wanted; empty for all.
     pub names: Vec<String>,
+    /// The size of wearers instead of their own, `EU 42`.
+    pub size: Option<String>,
 }
 
 /// Steps of evaluation one text may take; an ordinary garment takes some ten thousand.
@@ -81,7 +85,7 @@ pub fn evaluate(
         std::thread::Builder::new()
             .stack_size(STACK)
             .spawn_scoped(scope, || {
-                let mut evaluator = Evaluator::new(&files, &asked, root);
+                let mut evaluator = Evaluator::new(&files, &asked, root, options.size.as_deref());
                 let garments = evaluator.file(&options.names);
                 (garments, evaluator.told)
             })
@@ -121,7 +125,18 @@ pub struct Evaluator<'t> {
     /// Scopes of panels opened only to try a value of a fit.
     trials: BTreeSet<ScopeId>,
     /// Parameters set by copies, by the scope of the copy.
-    settings: BTreeMap<ScopeId, Vec<(&'t Name, &'t Expr)>>,
+    settings: BTreeMap<ScopeId, Vec<block::Setting<'t>>>,
+    /// Parts by the scopes in which the names of their blocks stand, and what they hold.
+    parts: BTreeMap<ScopeId, ItemId>,
+    opened: BTreeMap<ItemId, fields::Fields<'t>>,
+    /// The block of each part.
+    blocks: BTreeMap<ItemId, ItemId>,
+    /// Scopes of blocks that are looked at although no part uses them.
+    lone: BTreeSet<ScopeId>,
+    /// Where a line of a block is worked out, while so many wait.
+    within: Option<(ScopeId, usize)>,
+    /// The size that was asked for instead of the wearers' own.
+    size: Option<&'t str>,
     /// Scopes of the library's modules, by their paths.
     libraries: BTreeMap<String, ScopeId>,
     parameters: Vec<BindingId>,
@@ -143,7 +158,7 @@ pub struct Evaluator<'t> {
 }
 
 impl<'t> Evaluator<'t> {
-    fn new(files: &'t [Loaded], options: &'t [Asked], root: FileId) -> Self {
+    fn new(files: &'t [Loaded], options: &'t [Asked], root: FileId, size: Option<&'t str>) -> Self {
         Evaluator {
             files,
             options,
@@ -156,6 +171,12 @@ impl<'t> Evaluator<'t> {
             fits: BTreeMap::new(),
             trials: BTreeSet::new(),
             settings: BTreeMap::new(),
+            parts: BTreeMap::new(),
+            opened: BTreeMap::new(),
+            blocks: BTreeMap::new(),
+            lone: BTreeSet::new(),
+            within: None,
+            size,
             libraries: BTreeMap::new(),
             parameters: Vec::new(),
             asked_for: BTreeSet::new(),
@@ -177,8 +198,15 @@ impl<'t> Evaluator<'t> {
     pub fn tell(&mut self, diagnostic: Diagnostic) {
         let place = diagnostic.labels.first().map(|label| label.span);
         let same = self.told_at.entry((place, diagnostic.code.clone())).or_default();
-        if same.len() < ALIKE && same.iter().all(|&number| self.told[number] != diagnostic) {
+        // What was told may name the part of which it was told besides.
+        let known = |told: &Diagnostic| {
+            told.message == diagnostic.message
+                && told.help == diagnostic.help
+                && diagnostic.labels.iter().all(|label| told.labels.contains(label))
+        };
+        if same.len() < ALIKE && same.iter().all(|&number| !known(&self.told[number])) {
             same.push(self.told.len());
+            let diagnostic = self.in_part(diagnostic);
             self.told.push(diagnostic);
         }
     }

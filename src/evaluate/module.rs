@@ -28,6 +28,9 @@ const LIBRARY: &[&str] = &[
     "std::padar",
 ];
 
+/// The library's modules of blocks, read only where a text may have parts.
+pub(super) const BLOCKS: &[&str] = &[];
+
 /// A file that was read.
 #[derive(Debug)]
 pub(super) struct Loaded {
@@ -91,6 +94,13 @@ pub(super) fn load(
             continue;
         }
         let text = world.text(id).to_owned();
+        if text.contains("part") && !path.starts_with("std::") {
+            for module in BLOCKS {
+                if let Ok(id) = world.open(module) {
+                    waiting.push((id, (*module).to_owned()));
+                }
+            }
+        }
         let (tree, mistakes) = parse(id, &text);
         told.extend(mistakes);
         let mut uses = Vec::new();
@@ -287,7 +297,9 @@ impl<'t> Evaluator<'t> {
                 );
             }
         }
-        let declared = declared_names(&other.tree);
+        let declared: Vec<&Name> = declared_names(&other.tree);
+        let (hidden, declared): (Vec<&Name>, Vec<&Name>) =
+            declared.into_iter().partition(|name| name.text.starts_with('_'));
         if names.is_empty() {
             for name in declared {
                 self.alias(into, from, &name.text, &name.text, source.span);
@@ -302,6 +314,14 @@ impl<'t> Evaluator<'t> {
                     _ => (name.text.as_str(), name.span),
                 };
                 self.alias(into, from, alias, &name.text, span);
+            } else if hidden.iter().any(|known| known.text == name.text) {
+                let message = format!("`{}` keeps `{}` to itself", other.path, name.text);
+                self.tell(
+                    Diagnostic::new("E0901", message)
+                        .at(name.span, "names that begin with `_` are for their own file")
+                        .help("give it a name without `_` there, or use another"),
+                );
+                self.poison_name(Some(name), into);
             } else {
                 let label = self.meant(&name.text, declared.iter().map(|name| name.text.as_str()));
                 self.tell(

@@ -47,6 +47,11 @@ impl<'t> Evaluator<'t> {
         if matches!(op, BinaryOp::And | BinaryOp::Or) {
             return self.logical(op, left, right, scope);
         }
+        if matches!(op, BinaryOp::Equal | BinaryOp::Unequal)
+            && let Some(found) = self.option_compared(op, (left, right), scope)
+        {
+            return found;
+        }
         let a = self.eval(left, scope);
         let b = self.eval(right, scope);
         if a == Value::Poison || b == Value::Poison {
@@ -59,6 +64,9 @@ impl<'t> Evaluator<'t> {
                 }
                 first.extend(second);
                 Value::Edges(first)
+            }
+            (BinaryOp::Equal | BinaryOp::Unequal, Value::Word(a), Value::Word(b)) => {
+                Value::Bool((a.word == b.word) == (op == BinaryOp::Equal))
             }
             (BinaryOp::Equal | BinaryOp::Unequal, a, b) if same_sort(&a, &b) => {
                 Value::Bool((a == b) == (op == BinaryOp::Equal))
@@ -294,8 +302,7 @@ fn marked(value: Value) -> Value {
 fn same_sort(a: &Value, b: &Value) -> bool {
     matches!(
         (a, b),
-        (Value::Word(_), Value::Word(_))
-            | (Value::Text(_), Value::Text(_))
+        (Value::Text(_), Value::Text(_))
             | (Value::Bool(_), Value::Bool(_))
             | (Value::Colour(_), Value::Colour(_))
     )

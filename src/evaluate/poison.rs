@@ -4,6 +4,7 @@
 //! and its names are poisoned, so that nobody complains on top of it that something is missing.
 
 use super::Evaluator;
+use super::choice::MATCH;
 use super::fields::{Fields, Spoiled};
 use super::item::{declares, root};
 use super::scope::{ScopeId, What};
@@ -50,6 +51,9 @@ impl<'t> Evaluator<'t> {
                 StatementKind::If { then, otherwise, .. } => {
                     self.poison(inside(then), out);
                     self.poison(otherwise.as_ref().map_or(&[], inside), out);
+                }
+                StatementKind::Line { word, block: Some(block), .. } if word.text == MATCH => {
+                    self.poison_arms(block, out);
                 }
                 StatementKind::Line { word, phrase, .. } => {
                     self.poison_line(table.find(&word.text, false), None, phrase, out);

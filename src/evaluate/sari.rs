@@ -331,7 +331,7 @@ impl<'t> Evaluator<'t> {
     fn knows_item(&mut self, scope: super::scope::ScopeId, name: &str, kind: Kind) -> bool {
         let own = self.find(scope, name);
         let of_library = || {
-            let library = self.libraries.get(kind.library()?)?;
+            let library = self.libraries.get(*kind.libraries().first()?)?;
             self.scopes.get(library.0)?.names.get(name).copied()
         };
         let Some(found) = own.or_else(of_library) else { return false };

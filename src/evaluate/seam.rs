@@ -43,6 +43,7 @@ impl<'t> Evaluator<'t> {
         let mut pending: Vec<Pending<'_, 't>> = Vec::new();
         let mut sound = true;
         for phrase in phrases {
+            self.within = Some((phrase.scope, self.waiting.len()));
             let lines: Option<Vec<Line>> =
                 phrase.args().into_iter().map(|arg| self.line_of(arg, making)).collect();
             match lines {
@@ -73,6 +74,7 @@ impl<'t> Evaluator<'t> {
         for seam in pending {
             // What is wrong with the left is not told again of the right.
             let spans = seam.spans;
+            self.within = Some((seam.phrase.scope, self.waiting.len()));
             if !wrong.contains(&spans)
                 && self.finish_seam(seam, &corners, making, &mut sewn).is_none()
             {

@@ -5,6 +5,7 @@ use super::panel::edge::{EdgeRef, Mark, Which};
 use super::words::Kind;
 use crate::textile::Colour;
 use crate::units::{Dimension, Quantity};
+use std::rc::Rc;
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +21,7 @@ pub enum Value {
     /// A colour.
     Colour(Colour),
     /// One of a parameter's options.
-    Word(String),
+    Word(Rc<Chosen>),
     /// A point or vector of two or three parts of one dimension.
     Vector(Vector),
     /// From, to, both included.
@@ -44,6 +45,17 @@ pub enum Value {
     Edges(Vec<EdgeRef>),
     /// A place on a panel.
     Mark(Mark),
+}
+
+/// What was chosen among the options of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// The option.
+    pub word: String,
+    /// All that there are.
+    pub options: Vec<String>,
+    /// The parameter.
+    pub name: String,
 }
 
 /// Two or three numbers of one dimension.

@@ -39,4 +39,6 @@ pub struct Garment {
     pub schedule: Vec<scene::Phase>,
     /// Pictures asked for; may be empty.
     pub pictures: Vec<scene::Picture>,
+    /// Sizes for which the pattern is drawn besides its own.
+    pub grade: Vec<String>,
 }

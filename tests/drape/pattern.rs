@@ -166,6 +166,7 @@ pub fn garment(
             Phase::Settle { speed: 2e-3, within: 20.0, span: None },
         ],
         pictures: vec![picture()],
+        grade: Vec::new(),
     }
 }
 

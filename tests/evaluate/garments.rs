@@ -9,21 +9,21 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-fn worked(text: &str, set: &[(&str, &str)]) -> (Memory, Vec<Garment>, Vec<Diagnostic>) {
+pub fn worked(text: &str, set: &[(&str, &str)]) -> (Memory, Vec<Garment>, Vec<Diagnostic>) {
     let mut world = Memory::new([("main.garment", text)]);
     let root = world.open("main.garment").unwrap();
     let set = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-    let (garments, told) = evaluate(&mut world, root, &Options { set, names: Vec::new() });
+    let (garments, told) = evaluate(&mut world, root, &Options { set, ..Options::default() });
     (world, garments, told)
 }
 
-fn sound(text: &str, set: &[(&str, &str)]) -> Vec<Garment> {
+pub fn sound(text: &str, set: &[(&str, &str)]) -> Vec<Garment> {
     let (world, garments, told) = worked(text, set);
     assert!(told.is_empty(), "{}", render::report(&told, &world, false, 100));
     garments
 }
 
-fn length<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
+pub fn length<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
     runs.into_iter().map(Run::length).sum()
 }
 
@@ -243,7 +243,7 @@ fn every_text_ends() {
     }
 }
 
-fn codes(told: &[Diagnostic]) -> Vec<&str> {
+pub fn codes(told: &[Diagnostic]) -> Vec<&str> {
     told.iter().map(|told| told.code.as_str()).collect()
 }
 

@@ -5,4 +5,5 @@
 mod errors;
 mod garments;
 mod library;
+mod parts;
 mod tour;

@@ -132,6 +132,7 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
         pins: vec![],
         schedule: vec![],
         pictures: vec![],
+        grade: Vec::new(),
     };
     (garment, Compiled { panels: meshes, ..Compiled::default() })
 }

@@ -110,5 +110,6 @@ pub fn garment(panels: Vec<Panel>, seams: Vec<Seam>) -> Garment {
         pins: Vec::new(),
         schedule: vec![Phase::Run { time: 1.0, rate: 60.0, span: None }],
         pictures: Vec::new(),
+        grade: Vec::new(),
     }
 }

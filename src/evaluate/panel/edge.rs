@@ -5,6 +5,7 @@ use super::super::fields::{Arg, bare};
 use super::super::item::ItemId;
 use super::super::scope::{ScopeId, What};
 use super::super::value::Value;
+use super::super::words::Kind;
 use super::sheet::{CORNER, Drawn};
 use super::{CutEdge, CutPiece, Draft};
 use crate::diagnostic::{Diagnostic, Span};
@@ -230,7 +231,11 @@ impl<'t> Evaluator<'t> {
     ) -> Value {
         let mut all = Vec::new();
         for id in ids {
-            match self.panel_member(*id, None, name, at) {
+            let found = match self.item(*id).kind {
+                Kind::Part => self.part_member(*id, name, at),
+                _ => self.panel_member(*id, None, name, at),
+            };
+            match found {
                 Value::Edges(edges) => all.extend(edges),
                 Value::Poison => return Value::Poison,
                 other => return self.wrong(&other, "an edge", name.span),

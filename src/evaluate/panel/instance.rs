@@ -49,6 +49,10 @@ impl<'t> Evaluator<'t> {
         let values = self.fit_all(id, &merged)?;
         let instance = self.open_panel(id, &merged, values);
         let draft = self.instance_draft(instance, self.item(id).span)?;
+        if let Some(opened) = self.instances.get(instance.0) {
+            let fields = opened.fields.clone();
+            self.requirements(&fields);
+        }
         Some((*draft).clone())
     }
 

@@ -15,7 +15,7 @@ fn made(text: &str) -> (Option<Made>, Vec<String>) {
     let mut world = Memory::new([("test.garment", text)]);
     let root = world.open("test.garment").unwrap();
     let (files, asked, mut told) = module::load(&mut world, root, &[]);
-    let mut ev = Evaluator::new(&files, &asked, root);
+    let mut ev = Evaluator::new(&files, &asked, root, None);
     ev.file(&[]);
     let last = (0..ev.items.len())
         .map(ItemId)

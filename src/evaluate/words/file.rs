@@ -1,11 +1,18 @@
 //! Words at the level of a file.
 
-use super::{Kind, Vocabulary, item, opening};
+use super::garment::REQUIRE;
+use super::{Kind, Vocabulary, action, item, opening};
 
 pub(super) const TABLES: &[Vocabulary] = &[Vocabulary {
     kind: Kind::File,
     words: &[
         item("garment", "NAME", Kind::Garment, "pieces, how they are sewn, and who wears them"),
+        item(
+            "block",
+            "NAME [ = BLOCK ] [ with ]",
+            Kind::Block,
+            "pieces and seams with parameters, for use as a part of garments",
+        ),
         item("scene", "NAME", Kind::Scene, "cloth and solids, for study and for measuring"),
         item("yarn", "NAME [ = YARN ] [ with ]", Kind::Yarn, "a yarn: count, plies, twist, fibre"),
         item(
@@ -28,6 +35,8 @@ pub(super) const TABLES: &[Vocabulary] = &[Vocabulary {
         item("padar", "NAME [ = PADAR ] [ with ]", Kind::Padar, "the end piece of a sari"),
         item("sizes", "NAME [ of BODY ]", Kind::Sizes, "a table of bodies"),
         item("body", "NAME [ = BODY ] [ with ]", Kind::Body, "a figure with its measures"),
+        REQUIRE,
+        action("allow", "CODE,…", "warnings that this file does without: `allow W0601`"),
         opening("picture", "[ NAME ]", Kind::Picture, "a picture of what `of:` names"),
     ],
     rows: None,

@@ -1,6 +1,25 @@
 //! Words of a garment: sewing, placing, draping, pictures.
 
-use super::{Kind, Vocabulary, action, item, opening, property};
+use super::{Form, Kind, Vocabulary, Word, action, item, opening, property};
+
+/// Words of a garment that a block has not: they say how it is worn, shown and sized.
+pub(super) const WORN: &[&str] = &["drape", "picture", "grade", "grid", "fabric"];
+
+/// A rule of the writer's own.
+pub(super) const REQUIRE: Word = action(
+    "require",
+    "CONDITION [ because TEXT ]",
+    "an error unless it holds: `require intake < 8cm because \"a deeper dart stands off\"`",
+);
+
+/// A parameter of a block, by its name.
+static SETTING: Word = Word {
+    name: "PARAMETER",
+    form: Form::Property,
+    pattern: "VALUE",
+    help: "a parameter of the block, by its name",
+    block: None,
+};
 
 /// Words for placing and holding that garments and scenes share are repeated in `scene`.
 pub(super) const TABLES: &[Vocabulary] = &[
@@ -13,6 +32,12 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "NAME [ of FABRIC ] [ = PANEL ] [ with ]",
                 Kind::Panel,
                 "a piece of cloth; `panel b = a with { … }` copies the text of `a`, lines with the same name replace",
+            ),
+            item(
+                "part",
+                "NAME = BLOCK [ of FABRIC ] [ with ]",
+                Kind::Part,
+                "the panels and seams of a block, with its parameters set: `part cuffs = cuff { around: 25cm }`",
             ),
             action(
                 "seam",
@@ -32,6 +57,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action("fix", "PIECE,…", "holds an edge or a corner where it is when the drape begins"),
             action("check", "VALUE [ = VALUE ] [ within LENGTH ]", "an error unless it holds"),
+            REQUIRE,
             opening("drape", "", Kind::Drape, "what the workshop does, in order"),
             opening("picture", "[ NAME ]", Kind::Picture, "a picture of the dressed figure"),
             property(
@@ -39,9 +65,16 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "LENGTH",
                 "side of the cells of all panels, unless they say otherwise =8mm",
             ),
+            property("fabric", "FABRIC", "the fabric of panels that name none"),
+            property(
+                "grade",
+                "…",
+                "sizes for which the pattern is drawn besides its own: `EU 34, EU 36`, or `all`",
+            ),
         ],
         rows: None,
     },
+    Vocabulary { kind: Kind::Part, words: &[], rows: Some(&SETTING) },
     Vocabulary {
         kind: Kind::Drape,
         words: &[

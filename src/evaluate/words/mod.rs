@@ -18,7 +18,7 @@ mod textile;
 pub use pattern::{Clause, Element, Many, Pattern};
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// Kinds of block, and of the things they make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -26,6 +26,8 @@ use std::sync::OnceLock;
 pub enum Kind {
     File,
     Garment,
+    Block,
+    Part,
     Scene,
     Panel,
     Outline,
@@ -56,6 +58,8 @@ impl Kind {
         match self {
             Kind::File => "a file",
             Kind::Garment => "a garment",
+            Kind::Block => "a block",
+            Kind::Part => "a part",
             Kind::Scene => "a scene",
             Kind::Panel => "a panel",
             Kind::Outline => "an outline",
@@ -87,19 +91,20 @@ impl Kind {
         title.split_once(' ').map_or(title, |(_, noun)| noun)
     }
 
-    /// The library module whose names are known where this kind is wanted.
-    pub fn library(self) -> Option<&'static str> {
+    /// The library modules whose names are known where this kind is wanted.
+    pub fn libraries(self) -> &'static [&'static str] {
         match self {
-            Kind::Fabric => Some("std::fabric"),
-            Kind::Yarn => Some("std::yarn"),
-            Kind::Weave => Some("std::weave"),
-            Kind::Knit => Some("std::knit"),
-            Kind::Motif => Some("std::motif"),
-            Kind::Body | Kind::Sizes => Some("std::body"),
-            Kind::Kath => Some("std::kath"),
-            Kind::Padar => Some("std::padar"),
-            Kind::Ang => Some("std::ang"),
-            _ => None,
+            Kind::Fabric => &["std::fabric"],
+            Kind::Yarn => &["std::yarn"],
+            Kind::Weave => &["std::weave"],
+            Kind::Knit => &["std::knit"],
+            Kind::Motif => &["std::motif"],
+            Kind::Body | Kind::Sizes => &["std::body"],
+            Kind::Kath => &["std::kath"],
+            Kind::Padar => &["std::padar"],
+            Kind::Ang => &["std::ang"],
+            Kind::Block => super::module::BLOCKS,
+            _ => &[],
         }
     }
 }
@@ -116,7 +121,7 @@ pub enum Form {
 }
 
 /// A word of a block.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Word {
     /// The word.
     pub name: &'static str,
@@ -219,7 +224,16 @@ pub fn tables() -> impl Iterator<Item = &'static Vocabulary> {
     [file::TABLES, garment::TABLES, panel::TABLES, scene::TABLES, figure::TABLES, textile::TABLES]
         .into_iter()
         .flatten()
+        .chain([&*BLOCK])
 }
+
+/// What a block knows: all that a garment does, but for what belongs to its wearing.
+static BLOCK: LazyLock<Vocabulary> = LazyLock::new(|| {
+    let garment = garment::TABLES.iter().find(|table| table.kind == Kind::Garment);
+    let words = garment.map_or(&[][..], |table| table.words).iter();
+    let own = words.filter(|word| !garment::WORN.contains(&word.name)).copied();
+    Vocabulary { kind: Kind::Block, words: own.collect::<Vec<_>>().leak(), rows: None }
+});
 
 /// The patterns of the whole table, read on first use.
 fn patterns() -> &'static BTreeMap<&'static str, Pattern> {

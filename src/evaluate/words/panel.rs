@@ -1,5 +1,6 @@
 //! Words of a panel and of its outline.
 
+use super::garment::REQUIRE;
 use super::{Kind, Vocabulary, action, opening, property};
 
 pub(super) const TABLES: &[Vocabulary] = &[
@@ -47,6 +48,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "NAME in RANGE until VALUE = VALUE",
                 "finds the value of a name that makes two lengths equal",
             ),
+            REQUIRE,
             property("fabric", "FABRIC", "its fabric"),
             property("grain", "ANGLE", "turns the cloth under the drawing =0deg: warp along +y"),
             property("grid", "LENGTH", "side of the grid cells"),
