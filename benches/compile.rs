@@ -25,6 +25,7 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         layer: 0,
         loops: vec![Loop { pieces: vec![Piece { path, length }] }],
         edges: Vec::new(),
+        creases: Vec::new(),
         notches: Vec::new(),
         surface: Surface::Fabric,
         placement: Placement::Led,

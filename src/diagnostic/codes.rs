@@ -67,6 +67,7 @@ pub const CODES: &[Code] = &[
     code("E0408", "a fit with several answers"),
     code("E0409", "a fold that is not straight"),
     code("E0410", "a hole outside the cloth"),
+    code("E0411", "a pleat that does not fit"),
     code("E0501", "lengths of a seam that do not agree"),
     code("E0502", "a twisted seam"),
     code("E0503", "an edge sewn twice"),

@@ -11,9 +11,11 @@
 //!   a strip of equal triangles bent across their edges (Seung and Nelson 1988 for equilateral
 //!   ones), where a cell counts as the triangle whose tip is the middle of its far edge.
 
+use super::crease::Crease;
 use super::weld::Weld;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 /// One term of bending.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,11 +28,14 @@ pub struct Fold {
     pub count: usize,
     /// Stiffness s, N·m.
     pub stiffness: f64,
+    /// Whether the cloth is creased here; see [`super::crease`].
+    pub creased: bool,
 }
 
 impl Fold {
     fn new(terms: &[(u32, f64)], stiffness: f64) -> Self {
-        let mut fold = Fold { knots: [0; 6], weights: [0.0; 6], count: 0, stiffness };
+        let mut fold =
+            Fold { knots: [0; 6], weights: [0.0; 6], count: 0, stiffness, creased: false };
         for &(knot, weight) in terms {
             match fold.knots[..fold.count].iter().position(|&k| k == knot) {
                 Some(same) => fold.weights[same] += weight,
@@ -76,6 +81,9 @@ impl Fold {
     }
 }
 
+/// Width of the cloth in which a pressed crease bends, m.
+const PRESSED: f64 = 2e-3;
+
 /// Square of the sine of half the angle up to which a fold becomes firmer: 127°.
 const SHARPEST: f64 = 0.8;
 
@@ -90,6 +98,8 @@ struct Side {
     far: [u32; 2],
     panel: u32,
     is_cell: bool,
+    /// Whether the face lies to the left of the edge, seen from outside.
+    left: bool,
     /// Length of the edge, height of the tip over it, and the foot of that height as a share of
     /// the way from the lower knot.
     length: f64,
@@ -99,9 +109,15 @@ struct Side {
     warp: f64,
 }
 
-/// All terms of bending of a cloth.
-pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
+/// All terms of bending of a cloth, and its creases.
+pub fn folds(compiled: &Compiled, weld: &Weld) -> (Vec<Fold>, Vec<Crease>) {
     let mut folds = Vec::new();
+    let mut creases = Vec::new();
+    let mut pressed: BTreeMap<[u32; 2], f64> = BTreeMap::new();
+    for crease in &compiled.creases {
+        let [a, b] = crease.side.map(|p| weld.knot[p as usize]);
+        *pressed.entry([a.min(b), a.max(b)]).or_insert(0.0) += crease.angle;
+    }
     let mut sides = Vec::new();
     for (number, panel) in compiled.panels.iter().enumerate() {
         let fabric = &compiled.fabrics[panel.fabric];
@@ -126,6 +142,7 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
                     face: c as u32,
                     far,
                     panel: number as u32,
+                    left: a <= b,
                     is_cell: true,
                     length: h,
                     height: h,
@@ -139,7 +156,8 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
             for e in 0..3 {
                 let [p, q, r] = [particles[e], particles[(e + 1) % 3], particles[(e + 2) % 3]];
                 let [a, b, tip] = [p, q, r].map(|p| weld.knot[p as usize]);
-                let (p, q) = if a <= b { (p, q) } else { (q, p) };
+                let left = a <= b;
+                let (p, q) = if left { (p, q) } else { (q, p) };
                 let [p, q, r] = [p, q, r].map(|p| compiled.particles[p as usize]);
                 let along = [q[0] - p[0], q[1] - p[1]];
                 let up = [r[0] - p[0], r[1] - p[1]];
@@ -157,6 +175,7 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
                     face: (compiled.cells.len() + t) as u32,
                     far: [tip, tip],
                     panel: number as u32,
+                    left,
                     is_cell: false,
                     length,
                     height,
@@ -178,12 +197,26 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
                 let [warp, weft] = compiled.fabrics[panel.fabric].bending.map(|b| b.max(0.0));
                 warp * s.warp + weft * (1.0 - s.warp)
             };
+            // A seam is no crease, even where a crease of one of its panels ends on it.
+            let angle = pressed.get(&a.edge).filter(|_| a.panel == b.panel);
+            let mut add = |fold: Fold, far: [u32; 2]| match angle {
+                Some(&angle) => {
+                    // What is bent at a crease is no wider than the crease, however wide the cells.
+                    let firmer = (0.5 * (a.height + b.height) / PRESSED).max(1.0);
+                    let stiffness = fold.stiffness * firmer;
+                    let fold = Fold { creased: true, stiffness, ..fold };
+                    creases.push(Crease::new(fold, a.edge, a.left, far, angle));
+                    folds.push(fold);
+                }
+                None => folds.push(fold),
+            };
             if a.is_cell && b.is_cell && a.panel == b.panel {
                 let h = a.length;
                 for end in 0..2 {
                     let terms =
                         [(a.far[end], 1.0 / h), (a.edge[end], -2.0 / h), (b.far[end], 1.0 / h)];
-                    folds.push(Fold::new(&terms, 0.5 * rigidity(a)));
+                    let fold = Fold::new(&terms, 0.5 * rigidity(a));
+                    add(fold, [a.far[end], b.far[end]]);
                 }
             } else {
                 let areas = [a, b].map(|s| 0.5 * s.length * s.height);
@@ -198,11 +231,12 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> Vec<Fold> {
                     terms[4 * k + 2] = (s.edge[0], -(1.0 - s.foot) * w);
                     terms[4 * k + 3] = (s.edge[1], -s.foot * w);
                 }
-                folds.push(Fold::new(&terms, rigidity * length * length / total));
+                let fold = Fold::new(&terms, rigidity * length * length / total);
+                add(fold, [a.far[0], b.far[0]]);
             }
         }
     }
-    folds
+    (folds, creases)
 }
 
 #[cfg(test)]

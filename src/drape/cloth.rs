@@ -1,6 +1,7 @@
 //! A cloth as the solver sees it: knots with mass, threads, shearing cells, band triangles, folds.
 
 use super::bending::{self, Fold};
+use super::crease::Crease;
 use super::grid::Taken;
 use super::matrix::Pattern;
 use super::membrane::{self, Triangle};
@@ -30,6 +31,8 @@ pub struct Cloth {
     pub triangles: Vec<Triangle>,
     /// Bending.
     pub folds: Vec<Fold>,
+    /// What rests folded.
+    pub creases: Vec<Crease>,
     /// How many of the springs, cells and folds, the first ones, belong to the grid; the others
     /// belong to the rim.
     pub regular: [usize; 3],
@@ -60,6 +63,7 @@ impl Cloth {
     /// Builds the cloth.
     pub fn new(compiled: &Compiled, weld: Weld) -> Self {
         let n = weld.count;
+        let (folds, creases) = bending::folds(compiled, &weld);
         let mut cloth = Cloth {
             mass: vec![0.0; n],
             area: vec![0.0; n],
@@ -68,7 +72,8 @@ impl Cloth {
             spacing: vec![f64::INFINITY; n],
             raise: vec![0.0; n],
             cell: f64::INFINITY,
-            folds: bending::folds(compiled, &weld),
+            folds,
+            creases,
             weld,
             ..Cloth::default()
         };

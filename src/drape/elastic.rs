@@ -22,11 +22,13 @@ pub fn energy(cloth: &Cloth, x: &Places) -> f64 {
         .zip(0..)
         .map(|(f, number)| {
             let bend = f.bend(x);
-            let sharp = if number < cloth.regular[2] { 1.0 } else { Fold::sharpness(&bend) };
+            let blunt = number < cloth.regular[2] || f.creased;
+            let sharp = if blunt { 1.0 } else { Fold::sharpness(&bend) };
             0.5 * f.stiffness * bend.norm_squared() * sharp
         })
         .sum();
-    springs + cells + triangles + folds
+    let creases: f64 = cloth.creases.iter().map(|crease| crease.energy(x)).sum();
+    springs + cells + triangles + folds + creases
 }
 
 /// Sets the blocks off the diagonal of `matrix`, which is over the given knots, to the stiffness of
@@ -173,7 +175,7 @@ fn sharpen(
     let row = |knot: u32| knots.binary_search(&knot).map_or(u32::MAX, |i| i as u32);
     for (fold, bend) in folds.iter().zip(bent) {
         let more = fold.stiffness * (Fold::firmness(&bend) - 1.0);
-        if more < 1e-3 * fold.stiffness {
+        if fold.creased || more < 1e-3 * fold.stiffness {
             continue;
         }
         for (i, wi) in fold.terms() {

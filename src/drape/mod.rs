@@ -3,6 +3,7 @@
 pub mod air;
 pub mod bending;
 pub mod cloth;
+pub mod crease;
 pub mod crossing;
 pub mod draped;
 pub mod elastic;

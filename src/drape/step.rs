@@ -315,6 +315,7 @@ impl<'a> Workshop<'a> {
         let dt = manner.dt;
         let scale = 1.0 + self.cloth.damping / dt;
         let mut force = self.system.assemble(&self.cloth, x, &self.last, scale);
+        self.cloth.creases.iter().for_each(|crease| crease.press(x, &mut force));
         let off = &mut self.system.rim.matrix.off;
         for stitch in self.sewing.pairs.iter().filter(|_| manner.sewing > 0.0) {
             let [a, b] = stitch.knots.map(|k| k as usize);

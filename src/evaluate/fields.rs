@@ -85,6 +85,12 @@ impl<'t> Phrase<'t> {
         self.values(word).into_iter().next()
     }
 
+    /// The word chosen in a clause.
+    pub fn word_of(&self, word: &str) -> Option<&'t str> {
+        let said = self.clause(word)?;
+        said.args.first().and_then(|expr| bare(expr)).map(|name| name.text.as_str())
+    }
+
     /// All values of a clause.
     pub fn values(&self, word: &str) -> Vec<Arg<'t>> {
         let Some(said) = self.clause(word) else { return Vec::new() };

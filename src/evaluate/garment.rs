@@ -8,9 +8,9 @@ use super::words::Kind;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::Garment;
 use crate::garment::cloth::Surface;
-use crate::garment::panel::{NamedEdge, Panel};
+use crate::garment::panel::{NamedEdge, Panel, Run};
 use crate::garment::scene::{Phase, Placement};
-use crate::garment::seam::{PanelRun, Seam, SeamKind};
+use crate::garment::seam::{PanelRun, Seam};
 use crate::units::Dimension;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -273,6 +273,7 @@ impl<'t> Evaluator<'t> {
                 layer: draft.layer,
                 loops: piece.loops.clone(),
                 edges,
+                creases: piece.creases.clone(),
                 notches: piece.notches.clone(),
                 surface: Surface::Fabric,
                 placement: Placement::Led,
@@ -401,17 +402,18 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// Seams of the darts of all panels, then those that the text says; false if one is wrong.
+    /// Seams of the darts and pleats of all panels, then those that the text says; false if one is wrong.
     fn seams(&mut self, fields: &Fields<'t>, making: &mut Making) -> bool {
         for (id, draft) in &making.drafts {
             for (number, piece) in draft.pieces.iter().enumerate() {
                 let Some(&panel) = making.numbers.get(&(*id, number)) else { continue };
-                for dart in &piece.darts {
-                    let [a, b] = dart.legs.map(|run| vec![PanelRun { panel, run }]);
+                for join in &piece.joins {
+                    let on = |&run: &Run| PanelRun { panel, run };
+                    let [a, b] = join.sides.each_ref().map(|side| side.iter().map(on).collect());
                     making.garment.seams.push(Seam {
-                        name: format!("{}.{}", draft.piece_name(piece), dart.name),
-                        span: dart.span,
-                        kind: SeamKind::Dart,
+                        name: format!("{}.{}", draft.piece_name(piece), join.name),
+                        span: join.span,
+                        kind: join.kind,
                         a,
                         b,
                     });

@@ -355,6 +355,7 @@ fn panel(
                 runs: edge.runs.iter().map(|(run, _)| *run).collect(),
             })
             .collect(),
+        creases: piece.creases.clone(),
         notches: piece.notches.clone(),
         surface,
         placement: Placement::Flat { at, turn: turn.map(curve::turned) },

@@ -27,6 +27,11 @@ const TOLERANCE: (f64, f64) = (1e-3, 2e-3);
 /// Rows of a ring that bend by so much, m, one upwards and one downwards, are twisted.
 const TWIST: f64 = 0.02;
 
+/// Whether a seam brings the two ends of a mouth of an edge together.
+fn closes_a_mouth(seam: &Seam) -> bool {
+    matches!(seam.kind, SeamKind::Dart | SeamKind::Pleat)
+}
+
 /// A seam of two sides that is yet to be directed.
 struct Pending<'p, 't> {
     phrase: &'p Phrase<'t>,
@@ -53,7 +58,7 @@ impl<'t> Evaluator<'t> {
         }
         // Seams of single edges know their direction; they join the corners of rows.
         let mut corners = Corners::default();
-        for dart in making.garment.seams.iter().filter(|seam| seam.kind == SeamKind::Dart) {
+        for dart in making.garment.seams.iter().filter(|seam| closes_a_mouth(seam)) {
             let mouth = |runs: &[PanelRun]| -> Option<Corner> {
                 let first = runs.first()?;
                 let panel = making.garment.panels.get(first.panel)?;

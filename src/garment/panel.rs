@@ -27,6 +27,8 @@ pub struct Panel {
     pub loops: Vec<Loop>,
     /// Edges by name. Names of copies carry their half: `left.side`.
     pub edges: Vec<NamedEdge>,
+    /// Lines along which it is folded.
+    pub creases: Vec<Crease>,
     /// Match marks on the outline, for the cutter.
     pub notches: Vec<Notch>,
     /// What is woven, knitted or printed where.
@@ -82,6 +84,20 @@ impl Run {
     pub fn length(&self) -> f64 {
         (self.to - self.from).abs()
     }
+}
+
+/// A straight line along which cloth is folded; what of it lies outside the cloth does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Crease {
+    /// Where it is declared.
+    pub span: Span,
+    /// One end in the drawing, m.
+    pub from: [f64; 2],
+    /// The other end, m.
+    pub to: [f64; 2],
+    /// The angle at which the cloth rests, rad, −π to π: positive where its face is folded on
+    /// itself.
+    pub angle: f64,
 }
 
 /// A mark on the outline.

@@ -37,6 +37,8 @@ pub enum SeamKind {
     Plain,
     /// The two legs of a dart.
     Dart,
+    /// The layers of a pleat or tuck at its edge.
+    Pleat,
     /// Closed by a zip: sewn like a seam.
     Zip,
 }

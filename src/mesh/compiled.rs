@@ -24,6 +24,8 @@ pub struct Compiled {
     pub triangles: Vec<[u32; 3]>,
     /// Seams, in the order of sewing.
     pub seams: Vec<MeshSeam>,
+    /// Sides of cells and triangles along which the cloth is folded.
+    pub creases: Vec<MeshCrease>,
     /// Edges held to a body.
     pub attachments: Vec<MeshAttachment>,
     /// Particles held still.
@@ -105,6 +107,15 @@ pub struct MeshSeam {
     pub name: String,
     /// Pairs to be sewn; the two of a pair may be the same particle (the tip of a dart).
     pub pairs: Vec<[u32; 2]>,
+}
+
+/// A side of two cells or triangles of a panel at which the cloth rests folded.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshCrease {
+    /// The particles at its ends, the lower first.
+    pub side: [u32; 2],
+    /// The angle at which it rests, rad: 0 is flat, positive where the face is folded on itself.
+    pub angle: f64,
 }
 
 /// Particles that follow a body.

@@ -53,7 +53,9 @@ pub fn write(compiled: &Compiled, mut out: impl Write) -> io::Result<()> {
         list(out, &seam.pairs, |text, pair| whole(text, pair))?;
         write!(out, "]}}")?;
     }
-    write!(out, "],\n\"attachments\":")?;
+    write!(out, "],\n\"creases\":")?;
+    value(out, &compiled.creases)?;
+    write!(out, ",\n\"attachments\":")?;
     value(out, &compiled.attachments)?;
     write!(out, ",\n\"pins\":")?;
     value(out, &compiled.pins)?;

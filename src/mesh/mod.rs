@@ -11,6 +11,7 @@ pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
+pub mod crease;
 pub mod grading;
 pub mod improve;
 pub mod json;
@@ -86,6 +87,7 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
     let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
+    compiled.creases = crease::creases(garment, &compiled);
     if options.atlas {
         atlas::draw(garment, &mut compiled);
     }

@@ -93,6 +93,7 @@ pub fn outline(name: &str, pieces: Vec<BezPath>, names: &[&str], placement: Plac
         layer: 0,
         loops: vec![Loop { pieces }],
         edges,
+        creases: Vec::new(),
         notches: Vec::new(),
         surface: Surface::Fabric,
         placement,

@@ -23,6 +23,11 @@ pub fn sound(text: &str, set: &[(&str, &str)]) -> Vec<Garment> {
     garments
 }
 
+/// The codes of what is said of a text.
+pub fn told(text: &str) -> Vec<String> {
+    worked(text, &[]).2.into_iter().map(|told| told.code).collect()
+}
+
 pub fn length<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
     runs.into_iter().map(Run::length).sum()
 }

@@ -5,5 +5,6 @@
 mod errors;
 mod garments;
 mod library;
+mod operations;
 mod parts;
 mod tour;

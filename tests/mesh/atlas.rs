@@ -100,6 +100,7 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
             layer: 0,
             loops: vec![],
             edges: vec![],
+            creases: vec![],
             notches: vec![],
             surface,
             placement: placement.clone(),

@@ -78,6 +78,7 @@ pub fn panel(name: &str, loops: Vec<Loop>, cell: f64) -> Panel {
         layer: 0,
         edges: edges.collect(),
         loops,
+        creases: Vec::new(),
         notches: Vec::new(),
         surface: Surface::Fabric,
         placement: Placement::Led,

@@ -1,22 +1,40 @@
-//! Darts and notches: places along drawn edges, wedges cut out of them.
+//! Darts and notches: places along drawn edges, wedges cut out of them and out of the cloth.
 
 use super::super::Evaluator;
 use super::super::fields::{Arg, Fields, Phrase, bare};
 use super::super::words::Form;
 use super::instance::shape_edges;
+use super::mouth::{Cut, Form as Closing, too_deep};
 use super::operation::SHAPES;
 use super::shape::SIZE;
-use super::sheet::{self, Cut, Drawn, Sheet};
-use crate::diagnostic::Diagnostic;
+use super::sheet::{self, Drawn, Join, Sheet};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::garment::seam::SeamKind;
 use crate::geometry::curve;
 use crate::syntax::tree::Name;
 use crate::units::{self, Dimension};
 use kurbo::{BezPath, Point, Shape, Vec2};
 use std::f64::consts::PI;
 
+/// Mouths may touch, m.
+const OVERLAP: f64 = 1e-9;
+
+/// A dart with two tips: its upper tip, then round anticlockwise.
+struct Diamond {
+    name: String,
+    span: Span,
+    corners: [Point; 4],
+}
+
+/// Whether a point lies in the cloth of rings.
+pub(super) fn within(bodies: &[BezPath], p: Point) -> bool {
+    bodies.first().is_some_and(|outline| outline.winding(p) != 0)
+        && bodies.iter().skip(1).all(|hole| hole.winding(p) == 0)
+}
+
 impl<'t> Evaluator<'t> {
     /// The drawn edge that a phrase names.
-    fn drawn_edge<'d>(
+    pub(super) fn drawn_edge<'d>(
         &mut self,
         arg: Arg<'t>,
         rings: &'d [Vec<Drawn>],
@@ -39,25 +57,8 @@ impl<'t> Evaluator<'t> {
     /// A place along an edge: a share or a length from its start, or from the end that touches
     /// the edge named behind `from`.
     fn along(&mut self, phrase: &Phrase<'t>, rings: &[Vec<Drawn>], edge: &Drawn) -> Option<f64> {
+        let at = self.place_on(phrase.value("at")?, edge)?;
         let length = curve::length(&edge.path);
-        let arg = phrase.value("at")?;
-        let place = self.quantity_of(arg, &[Dimension::LENGTH, Dimension::NUMBER])?;
-        let mut at = if place.dimension.is_number() { place.value * length } else { place.value };
-        if !(-1e-9..=length + 1e-9).contains(&at) {
-            let mut told =
-                Diagnostic::new("E0303", format!("this edge is {} long", units::length(length)))
-                    .at(arg.expr.span, format!("{} lies beyond its ends", units::length(at)))
-                    .at(edge.span, "the edge");
-            if place.dimension.is_number() && place.value > 1.0 {
-                let n = place.value;
-                told = told.help(format!(
-                    "a number without a unit counts whole edges; write `{n}%` or `{n}cm`"
-                ));
-            }
-            self.tell(told);
-            return None;
-        }
-        at = at.clamp(0.0, length);
         let Some(from) = phrase.value("from") else { return Some(at) };
         let (_, _, neighbour) = self.drawn_edge(from, rings)?;
         let ends = [curve::start(&neighbour.path), curve::end(&neighbour.path)];
@@ -77,7 +78,29 @@ impl<'t> Evaluator<'t> {
         }
     }
 
-    /// The sheet with its darts cut out.
+    /// A share of an edge or a length from its start, as arc length, m.
+    pub(super) fn place_on(&mut self, arg: Arg<'t>, edge: &Drawn) -> Option<f64> {
+        let length = curve::length(&edge.path);
+        let place = self.quantity_of(arg, &[Dimension::LENGTH, Dimension::NUMBER])?;
+        let at = if place.dimension.is_number() { place.value * length } else { place.value };
+        if !(-1e-9..=length + 1e-9).contains(&at) {
+            let mut told =
+                Diagnostic::new("E0303", format!("this edge is {} long", units::length(length)))
+                    .at(arg.expr.span, format!("{} lies beyond its ends", units::length(at)))
+                    .at(edge.span, "the edge");
+            if place.dimension.is_number() && place.value > 1.0 {
+                let n = place.value;
+                told = told.help(format!(
+                    "a number without a unit counts whole edges; write `{n}%` or `{n}cm`"
+                ));
+            }
+            self.tell(told);
+            return None;
+        }
+        Some(at.clamp(0.0, length))
+    }
+
+    /// The sheet with its darts cut out and its edges laid in pleats.
     pub(super) fn darted(
         &mut self,
         fields: &Fields<'t>,
@@ -93,37 +116,135 @@ impl<'t> Evaluator<'t> {
             })
             .collect();
         let mut sound = true;
+        let mut diamonds: Vec<Diamond> = Vec::new();
         for (number, phrase) in fields.all("dart").enumerate() {
             let label = phrase
                 .label
                 .map_or_else(|| format!("dart{}", number + 1), |label| label.text.clone());
-            match self.dart(phrase, rings, &bodies, label) {
-                Some((ring, place, cut)) => cuts[ring][place].push(cut),
-                None => sound = false,
+            if phrase.says("on") {
+                match self.dart(phrase, rings, &bodies, label) {
+                    Some((ring, place, cut)) => cuts[ring][place].push(cut),
+                    None => sound = false,
+                }
+            } else {
+                match self.diamond(phrase, &bodies, label) {
+                    Some(diamond) => diamonds.push(diamond),
+                    None => sound = false,
+                }
             }
         }
+        let mut creases = Vec::new();
+        sound &= self.pleats(fields, rings, &mut cuts, &mut creases);
         for (edge, list) in rings.iter().flatten().zip(cuts.iter_mut().flatten()) {
             list.sort_by(|a, b| a.mouth.0.total_cmp(&b.mouth.0));
             for pair in list.windows(2) {
-                if pair[0].mouth.1 > pair[1].mouth.0 - 1e-6 {
+                let [first, second] = pair else { continue };
+                if first.mouth.1 > second.mouth.0 + OVERLAP {
+                    let wedge = |cut: &Cut| matches!(cut.form, Closing::Wedge { .. });
+                    let (code, what) = if wedge(first) && wedge(second) {
+                        ("E0406", "darts")
+                    } else {
+                        ("E0411", "folds of an edge")
+                    };
                     self.tell(
-                        Diagnostic::new("E0406", format!("two darts of `{name}` overlap"))
-                            .at(pair[1].span, "this one")
-                            .at(pair[0].span, "and this one")
+                        Diagnostic::new(code, format!("two {what} of `{name}` overlap"))
+                            .at(second.span, "this one")
+                            .at(first.span, "and this one")
                             .at(edge.span, "on this edge"),
                     );
                     sound = false;
                 }
             }
+            if let Some((cut, room)) = too_deep(curve::length(&edge.path), list) {
+                self.tell(
+                    Diagnostic::new("E0411", "this pleat has no cloth to lie beneath")
+                        .at(cut.span, format!("{} are left beside it", units::length(room)))
+                        .at(edge.span, "on this edge")
+                        .help("make it less deep, move it away from the end, or let it face the other way"),
+                );
+                sound = false;
+            }
         }
         if !sound {
             return None;
         }
-        let mut sheet = Sheet::default();
+        let mut sheet = Sheet { creases, ..Sheet::default() };
         for (ring, list) in rings.iter().zip(&cuts) {
             sheet.add_ring(ring, list);
         }
+        for diamond in diamonds {
+            let ring = sheet.rings.len();
+            let [a, b, c, d] = diamond.corners;
+            sheet.rings.push(vec![
+                curve::line(a, b),
+                curve::line(b, c),
+                curve::line(c, d),
+                curve::line(d, a),
+            ]);
+            sheet.joins.push(Join {
+                name: diamond.name,
+                kind: SeamKind::Dart,
+                half: None,
+                span: diamond.span,
+                sides: [
+                    vec![(ring, 0, false), (ring, 1, false)],
+                    vec![(ring, 3, true), (ring, 2, true)],
+                ],
+            });
+        }
         Some(sheet)
+    }
+
+    /// `dart at P width L above L below L`: a dart with two tips inside the cloth.
+    fn diamond(
+        &mut self,
+        phrase: &Phrase<'t>,
+        bodies: &[BezPath],
+        name: String,
+    ) -> Option<Diamond> {
+        let (Some(above), Some(below)) = (phrase.value("above"), phrase.value("below")) else {
+            self.tell(
+                Diagnostic::new("E0208", "a dart is said by its edge, or by its two tips")
+                    .at(phrase.span, "`on` or `above` and `below` are missing here")
+                    .help("`dart on waist at 50% width 2cm depth 9cm` or `dart at (8cm, -2cm) width 2cm above 9cm below 12cm`"),
+            );
+            return None;
+        };
+        for word in ["from", "depth", "to"] {
+            if let Some(said) = phrase.clause(word) {
+                self.tell(
+                    Diagnostic::new("E0207", format!("`{word}` goes with a dart `on` an edge"))
+                        .at(said.span, "here"),
+                );
+                return None;
+            }
+        }
+        let at = self.point(phrase.value("at")?);
+        let width = self.within_range(phrase.value("width")?, Dimension::LENGTH, 1e-4, SIZE);
+        let above = self.within_range(above, Dimension::LENGTH, 1e-3, SIZE);
+        let below = self.within_range(below, Dimension::LENGTH, 1e-3, SIZE);
+        let turn = match phrase.value("turn") {
+            Some(arg) => self.quantity(arg, Dimension::ANGLE),
+            None => Some(0.0),
+        };
+        let ([x, y], width, above, below, turn) = (at?, width?, above?, below?, turn?);
+        let (across, along) = (curve::unit(turn), curve::unit(turn + PI / 2.0));
+        let middle = Point::new(x, y);
+        let corners = [
+            middle + along * above,
+            middle - across * (width / 2.0),
+            middle - along * below,
+            middle + across * (width / 2.0),
+        ];
+        if !corners.iter().all(|corner| within(bodies, *corner)) {
+            self.tell(
+                Diagnostic::new("E0406", "this dart does not lie within the cloth")
+                    .at(phrase.span, "here")
+                    .help("a dart that ends at an edge is said `on` that edge"),
+            );
+            return None;
+        }
+        Some(Diamond { name, span: phrase.span, corners })
     }
 
     fn dart(
@@ -137,10 +258,7 @@ impl<'t> Evaluator<'t> {
         let middle = self.along(phrase, rings, edge)?;
         let width = self.within_range(phrase.value("width")?, Dimension::LENGTH, 1e-4, SIZE)?;
         let length = curve::length(&edge.path);
-        let inside = |p: Point| {
-            bodies.first().is_some_and(|outline| outline.winding(p) != 0)
-                && bodies.iter().skip(1).all(|hole| hole.winding(p) == 0)
-        };
+        let inside = |p: Point| within(bodies, p);
         let fits = |a: f64, b: f64| a >= 1e-4 && b <= length - 1e-4;
         let beyond = |ev: &mut Self| {
             ev.tell(
@@ -175,7 +293,11 @@ impl<'t> Evaluator<'t> {
             }
             ((tip + first * (leg / p), tip + second * (leg / q)), tip)
         } else {
-            let depth = self.within_range(phrase.value("depth")?, Dimension::LENGTH, 1e-3, SIZE)?;
+            let Some(depth) = phrase.value("depth") else {
+                self.tell_no_tip(phrase);
+                return None;
+            };
+            let depth = self.within_range(depth, Dimension::LENGTH, 1e-3, SIZE)?;
             let across = b - a;
             let size = libm::hypot(across.x, across.y).max(f64::MIN_POSITIVE);
             let left = Vec2::new(-across.y / size, across.x / size);
@@ -192,7 +314,16 @@ impl<'t> Evaluator<'t> {
             );
             return None;
         }
-        Some((ring, place, Cut { name, span: phrase.span, mouth, corners, tip }))
+        let form = Closing::Wedge { corners, tip };
+        Some((ring, place, Cut { name, span: phrase.span, mouth, form }))
+    }
+
+    fn tell_no_tip(&mut self, phrase: &Phrase<'t>) {
+        self.tell(
+            Diagnostic::new("E0208", "`dart` must be given `depth` or `to`")
+                .at(phrase.span, "missing here")
+                .help(phrase.word.usage()),
+        );
     }
 
     pub(super) fn notched(
@@ -247,11 +378,17 @@ impl<'t> Evaluator<'t> {
             for arg in lengths.into_iter().filter_map(|word| line.value(word)) {
                 self.quantity(arg, Dimension::LENGTH);
             }
-            if let ("dart" | "notch", Some(at)) = (line.word.name, line.value("at")) {
+            if let ("dart" | "notch" | "tuck", Some(at)) =
+                (line.word.name, line.value("at").filter(|_| line.says("on")))
+            {
                 self.quantity_of(at, &[Dimension::LENGTH, Dimension::NUMBER]);
             }
-            if let Some(to) = line.value("to") {
+            if let ("dart" | "fold", Some(to)) = (line.word.name, line.value("to")) {
                 self.point(to);
+            }
+            let tipless = !line.says("depth") && !line.says("to") && line.says("on");
+            if line.word.name == "dart" && tipless {
+                self.tell_no_tip(line);
             }
         }
     }

@@ -1,11 +1,14 @@
 //! Panels: from the words of a panel to cut pieces with named edges.
 
+mod crease;
 mod dart;
 pub mod edge;
 mod fit;
 mod instance;
+mod mouth;
 pub(super) mod operation;
 mod outline;
+mod pleat;
 pub(super) mod shape;
 pub(super) mod sheet;
 
@@ -14,7 +17,8 @@ use super::fields::Fields;
 use super::item::{ItemId, State};
 use super::scope::ScopeId;
 use crate::diagnostic::Span;
-use crate::garment::panel::{Loop, Notch, Run};
+use crate::garment::panel::{Crease, Loop, Notch, Run};
+use crate::garment::seam::SeamKind;
 use kurbo::{BezPath, Point};
 use sheet::Drawn;
 use std::rc::Rc;
@@ -85,8 +89,10 @@ pub struct CutPiece {
     pub loops: Vec<Loop>,
     /// Named edges.
     pub edges: Vec<CutEdge>,
-    /// Legs of darts to be sewn, both walked from the edge to the tip.
-    pub darts: Vec<CutDart>,
+    /// What of it is sewn to itself: darts, pleats.
+    pub joins: Vec<CutJoin>,
+    /// Lines along which it is folded.
+    pub creases: Vec<Crease>,
     /// Match marks.
     pub notches: Vec<Notch>,
 }
@@ -106,15 +112,17 @@ pub struct CutEdge {
     pub flat: f64,
 }
 
-/// A dart of a cut piece.
+/// Lines of a cut piece that are sewn to each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CutDart {
+pub struct CutJoin {
     /// Its label, with its half.
     pub name: String,
+    /// What it is.
+    pub kind: SeamKind,
     /// Where it is declared.
     pub span: Span,
-    /// Its legs.
-    pub legs: [Run; 2],
+    /// Both lines, walked in the same sense.
+    pub sides: [Vec<Run>; 2],
 }
 
 impl CutPiece {

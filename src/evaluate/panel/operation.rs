@@ -4,9 +4,10 @@ use super::super::Evaluator;
 use super::super::fields::{Arg, Phrase, bare};
 use super::super::item::ItemId;
 use super::super::words::Kind;
-use super::sheet::{self, Drawn, Edge, Sheet};
-use super::{CutDart, CutEdge, CutPiece, Draft, Instance, InstanceId, Standing};
+use super::sheet::{self, Drawn, Edge, Leg, Sheet};
+use super::{CutEdge, CutJoin, CutPiece, Draft, Instance, InstanceId, Standing};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::garment::panel::Crease;
 use crate::geometry::{crossing, curve};
 use crate::syntax::tree::Name;
 use crate::units::{self, Dimension};
@@ -84,6 +85,7 @@ impl<'t> Evaluator<'t> {
             plain
         });
         sound &= self.notched(&fields, &rings, &mut sheet);
+        sound &= self.creased(&fields, &rings, &mut sheet);
         for phrase in fields.all("rotate") {
             let angle = phrase.value("by").and_then(|arg| self.quantity(arg, Dimension::ANGLE));
             let about = match phrase.value("about") {
@@ -280,12 +282,13 @@ impl<'t> Evaluator<'t> {
                 .map(|edge| edge.span)
                 .or_else(|| {
                     piece
-                        .darts
+                        .joins
                         .iter()
-                        .find(|dart| {
-                            dart.legs.iter().any(|leg| leg.ring == on.ring && leg.piece == on.piece)
+                        .find(|join| {
+                            let mut runs = join.sides.iter().flatten();
+                            runs.any(|run| run.ring == on.ring && run.piece == on.piece)
                         })
-                        .map(|dart| dart.span)
+                        .map(|join| join.span)
                 })
                 .unwrap_or(span)
         };
@@ -333,15 +336,29 @@ pub(in super::super) fn cut_piece(
         flat: edge.flat,
     };
     let edges = sheet.edges.iter().map(edge).collect();
-    let darts = sheet
-        .darts
+    let joins = sheet
+        .joins
         .iter()
-        .map(|dart| CutDart {
-            name: half_name(dart.half)
-                .map_or_else(|| dart.name.clone(), |half| format!("{half}.{}", dart.name)),
-            span: dart.span,
-            legs: dart.legs.map(|(ring, piece, back)| sheet::run(&loops, ring, piece, back)),
+        .map(|join| CutJoin {
+            name: half_name(join.half)
+                .map_or_else(|| join.name.clone(), |half| format!("{half}.{}", join.name)),
+            kind: join.kind,
+            span: join.span,
+            sides: join.sides.each_ref().map(|side| {
+                let run = |&(ring, piece, back): &Leg| sheet::run(&loops, ring, piece, back);
+                side.iter().map(run).collect()
+            }),
         })
         .collect();
-    CutPiece { side, edges, darts, notches: sheet.marks(), loops }
+    let creases = sheet
+        .creases
+        .iter()
+        .map(|crease| Crease {
+            span: crease.span,
+            from: [crease.from.x, crease.from.y],
+            to: [crease.to.x, crease.to.y],
+            angle: crease.angle,
+        })
+        .collect();
+    CutPiece { side, edges, joins, creases, notches: sheet.marks(), loops }
 }

@@ -1,8 +1,10 @@
 //! A piece of cloth while it is cut: rings of pieces and the edges that run along them; darts,
 //! folds and copies as operations on them.
 
+use super::mouth::{self, Cut};
 use crate::diagnostic::Span;
 use crate::garment::panel::{Loop, Notch, Piece, Run};
+use crate::garment::seam::SeamKind;
 use crate::geometry::curve;
 use kurbo::{Affine, BezPath, Point, Shape, Vec2};
 
@@ -32,13 +34,28 @@ pub struct Edge {
     pub flat: f64,
 }
 
-/// The two legs of a dart, each walked from the edge to the tip.
+/// A piece of a ring, and whether it is walked against the ring.
+pub type Leg = (usize, usize, bool);
+
+/// Lines of one piece of cloth that are sewn to each other, walked in the same sense: the legs of
+/// a dart from its mouth to its tip, the layers of a pleat at its edge.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dart {
+pub struct Join {
     pub name: String,
+    pub kind: SeamKind,
     pub half: Option<usize>,
     pub span: Span,
-    pub legs: [(usize, usize, bool); 2],
+    pub sides: [Vec<Leg>; 2],
+}
+
+/// A line along which the cloth is folded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crease {
+    pub span: Span,
+    pub from: Point,
+    pub to: Point,
+    /// The angle at which it rests, rad; positive towards the face.
+    pub angle: f64,
 }
 
 /// Rings of pieces with edges; ring 0 is the outline. A piece ends where the next begins.
@@ -46,19 +63,9 @@ pub struct Dart {
 pub struct Sheet {
     pub rings: Vec<Vec<BezPath>>,
     pub edges: Vec<Edge>,
-    pub darts: Vec<Dart>,
+    pub joins: Vec<Join>,
+    pub creases: Vec<Crease>,
     pub notches: Vec<(Point, Vec2)>,
-}
-
-/// A dart to be cut: the arc lengths of its mouth on the flat edge, and its tip.
-#[derive(Clone, Debug)]
-pub struct Cut {
-    pub name: String,
-    pub span: Span,
-    pub mouth: (f64, f64),
-    /// Where its legs begin: on the edge, or as far from the tip as each other beside it.
-    pub corners: (Point, Point),
-    pub tip: Point,
 }
 
 /// An edge as drawn.
@@ -85,51 +92,22 @@ impl Sheet {
         let ring = self.rings.len();
         let mut pieces: Vec<BezPath> = Vec::new();
         for (place, edge) in drawn.iter().enumerate() {
-            let length = curve::length(&edge.path);
-            let mut stretches = Vec::new();
-            let mut from = 0.0;
             let none = Vec::new();
-            let darts = cuts.get(place).unwrap_or(&none);
-            let mut begin = curve::start(&edge.path);
-            for dart in darts {
-                let (a, b) = dart.mouth;
-                if a - from > 1e-7 {
-                    let flat = (from, a);
-                    stretches.push(Stretch { ring, piece: pieces.len(), reversed: false, flat });
-                    pieces.push(trued(&edge.path, flat, begin, dart.corners.0));
-                }
-                let first = pieces.len();
-                pieces.push(curve::line(dart.corners.0, dart.tip));
-                pieces.push(curve::line(dart.tip, dart.corners.1));
-                self.darts.push(Dart {
-                    name: dart.name.clone(),
-                    half: None,
-                    span: dart.span,
-                    legs: [(ring, first, false), (ring, first + 1, true)],
-                });
-                (from, begin) = (b, dart.corners.1);
-            }
-            if darts.is_empty() && curve::start(&edge.path) == curve::end(&edge.path) {
+            let length = curve::length(&edge.path);
+            let cuts = cuts.get(place).unwrap_or(&none);
+            let stretches = if cuts.is_empty() && curve::start(&edge.path) == curve::end(&edge.path)
+            {
                 // A closed edge gets four corners that are none, so that it begins nowhere.
-                for quarter in 0..4_u8 {
+                let quarters = (0..4_u8).map(|quarter| {
                     let flat =
                         (length * f64::from(quarter) / 4.0, length * f64::from(quarter + 1) / 4.0);
-                    stretches.push(Stretch { ring, piece: pieces.len(), reversed: false, flat });
                     pieces.push(curve::part(&edge.path, flat.0, flat.1));
-                }
-            } else if length - from > 1e-7 {
-                stretches.push(Stretch {
-                    ring,
-                    piece: pieces.len(),
-                    reversed: false,
-                    flat: (from, length),
+                    Stretch { ring, piece: pieces.len() - 1, reversed: false, flat }
                 });
-                pieces.push(if darts.is_empty() {
-                    edge.path.clone()
-                } else {
-                    trued(&edge.path, (from, length), begin, curve::end(&edge.path))
-                });
-            }
+                quarters.collect()
+            } else {
+                mouth::part(&edge.path, cuts, ring, &mut pieces, &mut self.joins)
+            };
             if let Some(name) = &edge.name {
                 self.edges.push(Edge {
                     name: name.clone(),
@@ -160,7 +138,12 @@ impl Sheet {
                 (map * *at, to - map * *at)
             })
             .collect();
-        Sheet { rings, notches, ..self.clone() }
+        let creases = self
+            .creases
+            .iter()
+            .map(|crease| Crease { from: map * crease.from, to: map * crease.to, ..*crease })
+            .collect();
+        Sheet { rings, notches, creases, ..self.clone() }
     }
 
     /// The sheet with its mirror image about the fold, which is piece `fold` of the outline.
@@ -243,24 +226,27 @@ impl Sheet {
                 });
             }
         }
-        let mut darts = Vec::new();
-        for dart in &self.darts {
-            let leg = |(ring, piece, reversed): (usize, usize, bool), mirror: bool| {
+        let mut joins = Vec::new();
+        for join in &self.joins {
+            let leg = |&(ring, piece, reversed): &Leg, mirror: bool| {
                 let s = Stretch { ring, piece, reversed, flat: (0.0, 0.0) };
                 let s = if mirror { image(&s) } else { drawn(&s) };
                 (s.ring, s.piece, s.reversed)
             };
             for half in 0..2 {
-                darts.push(Dart {
+                let side = |side: &Vec<Leg>| side.iter().map(|l| leg(l, half == 1)).collect();
+                joins.push(Join {
                     half: Some(half),
-                    legs: dart.legs.map(|l| leg(l, half == 1)),
-                    ..dart.clone()
+                    sides: join.sides.each_ref().map(side),
+                    ..join.clone()
                 });
             }
         }
+        let mut creases = self.creases.clone();
+        creases.extend(mirrored.creases);
         let mut notches = self.notches.clone();
         notches.extend(mirrored.notches);
-        Sheet { rings, edges, darts, notches }
+        Sheet { rings, edges, joins, creases, notches }
     }
 
     /// Turns rings so that the outline runs anticlockwise and holes run clockwise.
@@ -279,8 +265,8 @@ impl Sheet {
                     stretch.reversed = !stretch.reversed;
                 }
             }
-            for dart in &mut self.darts {
-                for leg in dart.legs.iter_mut().filter(|leg| leg.0 == ring) {
+            for join in &mut self.joins {
+                for leg in join.sides.iter_mut().flatten().filter(|leg| leg.0 == ring) {
                     leg.1 = n - 1 - leg.1;
                     leg.2 = !leg.2;
                 }
@@ -311,34 +297,6 @@ impl Sheet {
             })
             .collect()
     }
-}
-
-/// The part of an edge between two places, swung and stretched a little so that it goes from
-/// `start` to `end`: an edge is trued to the ends of the legs of its darts.
-fn trued(path: &BezPath, (from, to): (f64, f64), start: Point, end: Point) -> BezPath {
-    let part = curve::part(path, from, to);
-    let (a, b) = (curve::start(&part), curve::end(&part));
-    let (old, new) = (b - a, end - start);
-    let squared = old.x * old.x + old.y * old.y;
-    let mut part = if squared > 1e-12 {
-        // new = z · old as complex numbers.
-        let (re, im) =
-            ((new.x * old.x + new.y * old.y) / squared, (new.y * old.x - new.x * old.y) / squared);
-        let map = Affine::new([
-            re,
-            im,
-            -im,
-            re,
-            start.x - re * a.x + im * a.y,
-            start.y - im * a.x - re * a.y,
-        ]);
-        curve::mapped(&part, map)
-    } else {
-        part
-    };
-    curve::start_at(&mut part, start);
-    curve::end_at(&mut part, end);
-    part
 }
 
 /// Makes each piece begin exactly where the one before it ends.

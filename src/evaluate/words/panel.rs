@@ -26,8 +26,23 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "dart",
-                "on EDGE at POSITION [ from EDGE ] width LENGTH ( depth LENGTH | to POINT )",
-                "a wedge with equal legs, cut out and sewn",
+                "[ on EDGE ] at PLACE [ from EDGE ] width LENGTH [ depth LENGTH | to POINT ] [ above LENGTH ] [ below LENGTH ] [ turn ANGLE ]",
+                "a wedge with equal legs, cut out and sewn: `dart on EDGE at PLACE width L depth L`; with two tips `dart at POINT width L above L below L`",
+            ),
+            action(
+                "pleat",
+                "on EDGE [ from PLACE ] [ to PLACE ] count NUMBER depth LENGTH [ kind knife|box|inverted ] [ facing EDGE ] [ pressed LENGTH ]",
+                "evenly spread folds between two places of an edge; each takes twice its depth and is pressed right across unless said otherwise =knife, facing the edge's end",
+            ),
+            action(
+                "tuck",
+                "on EDGE at PLACE depth LENGTH [ count NUMBER ] [ every LENGTH ] [ pressed LENGTH ]",
+                "folds that stand out from the face, sewn together at the edge; each takes twice its depth",
+            ),
+            action(
+                "fold",
+                "[ along PLACE ] [ from POINT ] [ to POINT ] by ANGLE",
+                "pressed to rest at an angle, positive towards the face: `fold along 50% by 180deg` at a share of the height, or `fold from POINT to POINT by ANGLE`",
             ),
             opening(
                 "hole",

@@ -1,0 +1,187 @@
+//! What is done to a piece after it is drawn, against lengths known in closed form.
+
+use crate::garments::{sound, told as codes};
+use darzi::garment::Garment;
+use darzi::garment::panel::{Crease, Panel, Run};
+use darzi::garment::seam::{PanelRun, SeamKind};
+
+/// A garment of one panel with the given lines, and what else is said.
+fn garment(panel: &str, more: &str) -> Garment {
+    let text = format!(
+        "garment g {{ wearer l = female {{ size: EU 38 }}
+         panel p of cotton {{ {panel} }}
+         place p before l.waist; {more} }}"
+    );
+    sound(&text, &[]).remove(0)
+}
+
+fn told(panel: &str) -> Vec<String> {
+    let text = format!(
+        "garment g {{ wearer l = female {{ size: EU 38 }}
+         panel p of cotton {{ {panel} }}
+         place p before l.waist }}"
+    );
+    codes(&text)
+}
+
+fn edge(panel: &Panel, name: &str) -> f64 {
+    let edge = panel.edges.iter().find(|edge| edge.name == name).unwrap();
+    edge.runs.iter().map(Run::length).sum()
+}
+
+fn side(runs: &[PanelRun]) -> f64 {
+    runs.iter().map(|run| run.run.length()).sum()
+}
+
+/// The places of creases along x, mm, with their angles in half turns.
+fn folds(creases: &[Crease]) -> Vec<(i64, i64)> {
+    let half_turns = |angle: f64| (angle / std::f64::consts::PI).round() as i64;
+    let mut folds: Vec<(i64, i64)> = creases
+        .iter()
+        .map(|crease| ((crease.from[0] * 1e3).round() as i64, half_turns(crease.angle)))
+        .collect();
+    folds.sort_unstable();
+    folds
+}
+
+#[test]
+fn a_knife_pleat_takes_twice_its_depth_and_lies_beneath_the_edge() {
+    // Bottom runs from x = -30 cm to 30 cm; its end is the side called `end`.
+    let right = garment(
+        "rectangle 60cm x 40cm; pleat on bottom from 10cm to 50cm count 4 depth 3cm facing end",
+        "check p.bottom.length = 36cm within 1um; check p.bottom.flat_length = 60cm within 1um",
+    );
+    let panel = &right.panels[0];
+    assert!((edge(panel, "bottom") - 0.36).abs() < 1e-9);
+    // Each slot of 10 cm: 4 cm to be seen, then the outer fold, which faces the end of the edge,
+    // and 3 cm further on the inner one.
+    let wanted = (0..4).flat_map(|i| [(-160 + 100 * i, -1), (-130 + 100 * i, 1)]);
+    assert_eq!(folds(&panel.creases), wanted.collect::<Vec<_>>());
+    assert!(panel.creases.iter().all(|crease| (crease.to[1] - 0.4).abs() < 1e-9));
+    // Two seams each: the halves of the mouth, and the layer beneath with what covers it.
+    assert_eq!(right.seams.len(), 8);
+    for seam in &right.seams {
+        assert_eq!(seam.kind, SeamKind::Pleat);
+        assert!((side(&seam.a) - 0.03).abs() < 1e-9 && (side(&seam.b) - 0.03).abs() < 1e-9);
+    }
+    // The other way round it is the mirror image.
+    let left = garment(
+        "rectangle 60cm x 40cm; pleat on bottom from 10cm to 50cm count 4 depth 3cm facing start",
+        "",
+    );
+    let mut mirrored: Vec<_> =
+        folds(&left.panels[0].creases).into_iter().map(|(x, turn)| (-x, turn)).collect();
+    mirrored.sort_unstable();
+    assert_eq!(mirrored, folds(&panel.creases));
+}
+
+#[test]
+fn box_and_inverted_pleats_are_knife_pleats_of_half_the_depth() {
+    let of = |kind: &str| {
+        garment(
+            &format!("rectangle 60cm x 40cm; pleat on bottom count 3 depth 4cm kind {kind}"),
+            "",
+        )
+    };
+    let (boxes, inverted) = (of("box"), of("inverted"));
+    for garment in [&boxes, &inverted] {
+        assert!((edge(&garment.panels[0], "bottom") - 0.36).abs() < 1e-9);
+        assert_eq!(garment.seams.len(), 12);
+    }
+    // Slots of 20 cm. A box takes 12 cm: 2 + 2 folded, 4 seen, 2 + 2 folded; its outer folds are
+    // the ends of the box.
+    assert_eq!(
+        folds(&boxes.panels[0].creases)[..4],
+        [(-240, 1), (-220, -1), (-180, -1), (-160, 1)]
+    );
+    // An inverted one takes 8 cm; its outer folds lie on each other, 4 + 4 cm apart on the flat.
+    assert_eq!(
+        folds(&inverted.panels[0].creases)[..4],
+        [(-240, -1), (-220, 1), (-180, 1), (-160, -1)]
+    );
+}
+
+#[test]
+fn pleats_beneath_each_other_still_find_what_covers_them() {
+    // 2 cm seen between pleats of 3 cm: the layer beneath reaches under two others.
+    let tight = garment("rectangle 60cm x 40cm; pleat on bottom from 20cm count 5 depth 3cm", "");
+    assert!((edge(&tight.panels[0], "bottom") - 0.30).abs() < 1e-9);
+    let covers = tight.seams.iter().filter(|seam| seam.a.len() > 1).count();
+    assert_eq!(covers, 5);
+    for seam in &tight.seams {
+        assert!((side(&seam.a) - side(&seam.b)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_pleated_edge_is_sewn_as_long_as_it_is_folded() {
+    let text = "garment g { wearer l = female { size: EU 38 }
+        panel skirt of cotton {
+            outline from (0, 0) {
+                waist: line to (50cm, 0); side: line to (55cm, -40cm)
+                hem: line to (0, -40cm); fold: line to start }
+            pleat on waist from 5cm to 45cm count 5 depth 3cm facing side
+            unfold across fold }
+        panel band of cotton { rectangle 40cm x 4cm }
+        seam skirt.waist -> band.bottom
+        place skirt before l.waist }";
+    let garment = sound(text, &[]).remove(0);
+    let sewn = garment.seams.iter().find(|seam| seam.kind == SeamKind::Plain).unwrap();
+    assert!((side(&sewn.a) - 0.4).abs() < 1e-9 && (side(&sewn.b) - 0.4).abs() < 1e-9);
+    let long = text.replace("rectangle 40cm", "rectangle 42cm");
+    assert_eq!(codes(&long), ["E0501"]);
+}
+
+#[test]
+fn tucks_stand_on_their_edge() {
+    let tucked = garment(
+        "rectangle 60cm x 40cm; tuck on bottom at 20cm depth 1cm count 3 every 6cm pressed 5cm",
+        "check p.bottom.length = 54cm within 1um",
+    );
+    assert_eq!(folds(&tucked.panels[0].creases), [(-100, -1), (-40, -1), (20, -1)]);
+    assert!(tucked.panels[0].creases.iter().all(|c| (c.to[1] - 0.05).abs() < 1e-9));
+    assert_eq!(tucked.seams.len(), 3);
+}
+
+#[test]
+fn a_dart_with_two_tips_is_sewn_from_tip_to_tip() {
+    let darted =
+        garment("rectangle 60cm x 40cm; dart at (5cm, 20cm) width 3cm above 8cm below 11cm", "");
+    let (upper, lower) = (0.015f64.hypot(0.08), 0.015f64.hypot(0.11));
+    let seam = &darted.seams[0];
+    assert_eq!((darted.panels[0].loops.len(), seam.kind), (2, SeamKind::Dart));
+    for runs in [&seam.a, &seam.b] {
+        let lengths: Vec<f64> = runs.iter().map(|run| run.run.length()).collect();
+        assert!((lengths[0] - upper).abs() < 1e-9 && (lengths[1] - lower).abs() < 1e-9);
+    }
+    assert_eq!(
+        told("rectangle 60cm x 40cm; dart at (5cm, 20cm) width 3cm above 8cm below 21cm"),
+        ["E0406"]
+    );
+    assert_eq!(told("rectangle 60cm x 40cm; dart at (5cm, 20cm) width 3cm above 8cm"), ["E0208"]);
+}
+
+#[test]
+fn folds_that_do_not_fit_are_told() {
+    let plain = "rectangle 60cm x 40cm;";
+    for (line, code) in [
+        // The pleats themselves take 36 cm, beneath each other.
+        ("pleat on bottom from 10cm to 40cm count 6 depth 3cm", "E0411"),
+        // Nothing before the first of them to lie beneath.
+        ("pleat on bottom to 30cm count 5 depth 3cm", "E0411"),
+        ("pleat on bottom count 4 depth 2cm kind box facing end", "E0207"),
+        ("pleat on bottom count 4 depth 2cm facing top", "E0504"),
+        ("pleat on bottom count 4 depth 2cm facing rim", "E0204"),
+        ("pleat on bottom count 2.5 depth 2cm", "E0303"),
+        ("pleat on bottom count 4 depth 2cm kind pinch", "E0203"),
+        ("pleat on bottom count 4", "E0208"),
+        ("tuck on bottom at 1cm depth 2cm", "E0411"),
+        ("tuck on bottom at 10cm depth 2cm count 3", "E0208"),
+        ("tuck on bottom at 10cm depth 2cm; tuck on bottom at 12cm depth 2cm", "E0411"),
+        ("fold along 120% by 90deg", "E0303"),
+        ("fold along 50% by 200deg", "E0303"),
+        ("fold from (0, 0) by 90deg", "E0208"),
+    ] {
+        assert_eq!(told(&format!("{plain} {line}")), [code], "{line}");
+    }
+}
