@@ -1,5 +1,5 @@
-//! Where panels begin: laid flat in the world, wrapped round trunk or limb at a distance, let
-//! down as a cone, or led by their seams to a neighbour.
+//! Where panels begin: laid flat in the world, wrapped round trunk or limb at a distance, put on
+//! like trousers, let down as a cone, or led by their seams to a neighbour.
 //!
 //! Wrapped panels keep their widths: every row of the drawing is laid along a closed line round
 //! the body whose length is at least the width of all that hangs there, so that seams begin
@@ -7,6 +7,7 @@
 
 mod cone;
 mod led;
+mod leg;
 mod limb;
 mod section;
 mod trunk;
@@ -61,7 +62,9 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
     for each in &trunk {
         done[each.number] = true;
     }
-    for each in &wrapped {
+    let legs: Vec<&Wrapped> = wrapped.iter().filter(|w| leg::is_leg(w)).collect();
+    leg::wrap(compiled, &legs, &mut positions);
+    for each in wrapped.iter().filter(|w| !leg::is_leg(w)) {
         if let Some(limb) = each.limb() {
             limb::wrap(compiled, each, limb, &done, &mut positions);
         }

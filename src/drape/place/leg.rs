@@ -1,0 +1,280 @@
+//! Fronts and backs of trousers: below the fork a tube round each leg, above it one ring round the
+//! trunk, as when they are being pulled up.
+//!
+//! The middle line of the drawing, the crease, runs down the front or the back of its leg. Above
+//! the fork a piece begins at the body's middle plane with its own inner edge, the rise. Legs that
+//! would reach down to the feet begin pushed up above them, in folds round the outside.
+
+use super::section::{Ring, Sections};
+use super::{Wrapped, centre, drawing};
+use crate::body::surface::Surface;
+use crate::garment::scene::Side;
+use crate::mesh::compiled::Compiled;
+use nalgebra::Point3;
+use std::f64::consts::TAU;
+
+/// Height of the rows whose widths are compared, m.
+const ROW: f64 = 0.01;
+/// Room left between pieces that meet, m.
+const MEETING: f64 = 0.01;
+/// How far below their places trousers begin, m: the forks pass under the crotch.
+const DOWN: f64 = 0.05;
+/// Length of cloth in one of the folds in which a leg is pushed up, m: many cells of a coarse grid.
+const FOLD: f64 = 0.16;
+/// Room between a hem and the ankle that it must not pass, m.
+const ANKLE: f64 = 0.01;
+/// Over this height above the fork the two tubes become one ring, m.
+const JOINING: f64 = 0.12;
+
+/// A piece with its rows.
+struct Piece<'a> {
+    wrapped: &'a Wrapped<'a>,
+    /// +1 for the wearer's left leg.
+    sign: f64,
+    /// How far each row reaches from the crease to the outside and to the inside, m.
+    reach: Vec<Option<[f64; 2]>>,
+}
+
+/// Whether a panel is a front or a back of a leg.
+pub(super) fn is_leg(wrapped: &Wrapped) -> bool {
+    wrapped.landmark.starts_with("leg.")
+        && wrapped.limb().is_some()
+        && matches!(wrapped.side, Side::Before | Side::Behind)
+}
+
+/// Lays the pieces of all legs, one body and one layer of cloth after the other.
+pub(super) fn wrap(compiled: &Compiled, legs: &[&Wrapped], positions: &mut [Point3<f64>]) {
+    let mut groups: Vec<(*const Surface, i32, Vec<&Wrapped>)> = Vec::new();
+    for &leg in legs {
+        let (body, layer) = (std::ptr::from_ref(leg.body), leg.panel(compiled).layer);
+        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
+            Some((_, _, members)) => members.push(leg),
+            None => groups.push((body, layer, vec![leg])),
+        }
+    }
+    for (_, _, members) in groups {
+        wrap_together(compiled, &members, positions);
+    }
+}
+
+/// Height at which a place of the drawing belongs, m.
+fn height(wrapped: &Wrapped, y: f64) -> f64 {
+    let level = wrapped.level.unwrap_or(wrapped.landmark);
+    centre(wrapped.body, level).y + y - wrapped.anchor
+}
+
+/// How far a place of the drawing lies towards the outside of its leg, m. Seen from outside, the
+/// right of a front is the wearer's left, the right of a back the wearer's right.
+fn outwards(wrapped: &Wrapped, sign: f64, x: f64) -> f64 {
+    if wrapped.side == Side::Behind { -x * sign } else { x * sign }
+}
+
+fn wrap_together(compiled: &Compiled, members: &[&Wrapped], positions: &mut [Point3<f64>]) {
+    let Some(first) = members.first() else { return };
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for member in members {
+        for (_, [_, y]) in drawing(compiled, member.panel(compiled)) {
+            let at = height(member, y);
+            low = low.min(at);
+            high = high.max(at);
+        }
+    }
+    if low > high {
+        return;
+    }
+    let rows = ((high - low) / ROW) as usize + 2;
+    let pieces: Vec<Piece> =
+        members.iter().map(|wrapped| Piece::new(compiled, wrapped, low, rows)).collect();
+    // The fork: where a piece reaches farthest inwards.
+    let inmost = |piece: &Piece| {
+        let inner = |k: usize| piece.reach[k].map_or(f64::NEG_INFINITY, |r| r[1]);
+        (0..rows).max_by(|a, b| inner(*a).total_cmp(&inner(*b))).unwrap_or(0)
+    };
+    let fork = pieces.iter().map(inmost).max().unwrap_or(0);
+    let course = Course::new(first, low, low + fork as f64 * ROW);
+    let sections = Sections::new(first.body, low - DOWN, high - DOWN);
+    let gap = members.iter().map(|m| m.gap).fold(f64::INFINITY, f64::min).max(0.005);
+    // Of each row the widest leg counts for both.
+    let widest = |k: usize, of: &dyn Fn([f64; 2]) -> f64| {
+        let side = |sign: f64, side: Side| {
+            pieces
+                .iter()
+                .filter(|p| p.sign == sign && p.wrapped.side == side)
+                .filter_map(|p| p.reach[k])
+                .map(of)
+                .fold(0.0, f64::max)
+        };
+        let leg = |sign| side(sign, Side::Before) + side(sign, Side::Behind);
+        f64::max(leg(1.0), leg(-1.0))
+    };
+    let rings: Vec<Ring> = (0..rows)
+        .map(|k| {
+            let section = k.min(sections.count() - 1);
+            let half = widest(k.max(fork), &|[out, inner]| out + inner) + MEETING;
+            let wanted = (2.0 * half - sections.girth(section)) / TAU;
+            sections.ring(section, gap.max(wanted))
+        })
+        .collect();
+    for piece in &pieces {
+        let Some((points, radii)) = piece.wrapped.limb() else { continue };
+        let tube = |k: usize| -> (Point3<f64>, f64) {
+            let at = course.at(low + k as f64 * ROW);
+            let n = points.partition_point(|p| p.y > at).clamp(1, points.len() - 1);
+            let (a, b) = (points[n - 1], points[n]);
+            let t = if a.y > b.y { ((a.y - at) / (a.y - b.y)).clamp(0.0, 1.0) } else { 0.0 };
+            let leg = radii[n - 1] + t * (radii[n] - radii[n - 1]);
+            let round = 2.0 * widest(k, &|r| r[0]).max(widest(k, &|r| r[1])) + 2.0 * MEETING;
+            let radius = (leg + gap).max(round / TAU);
+            let mut middle = a + (b - a) * t;
+            // The two tubes stand side by side.
+            middle.x = (middle.x * piece.sign).max(radius + MEETING) * piece.sign;
+            (middle, radius)
+        };
+        let tubes: Vec<(Point3<f64>, f64)> = (0..rows).map(|k| tube(k.min(fork))).collect();
+        let behind = piece.wrapped.side == Side::Behind;
+        for (particle, [x, y]) in drawing(compiled, piece.wrapped.panel(compiled)) {
+            let at = height(piece.wrapped, y);
+            let out = outwards(piece.wrapped, piece.sign, x);
+            let row = ((at - low) / ROW).max(0.0);
+            let place = |k: usize| {
+                let (middle, radius) = tubes[k];
+                let angle = out / radius;
+                let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+                // The folds lie where the other leg is not.
+                let reach = radius + course.bulge(at) * 0.5 * (1.0 + sin);
+                let front = if behind { -reach } else { reach };
+                let leg = [middle.x + piece.sign * reach * sin, middle.z + front * cos];
+                let ring = &rings[k];
+                let inner = piece.reach[k].map_or(0.0, |r| r[1]) + 0.5 * MEETING;
+                let walk = (out + inner) * piece.sign;
+                let start = if behind { 0.5 * ring.girth() } else { 0.0 };
+                let trunk = ring.point(if behind { start - walk } else { walk });
+                let share = ((k as f64 - fork as f64) * ROW / JOINING).clamp(0.0, 1.0);
+                let share = share * share * (3.0 - 2.0 * share);
+                [0, 1].map(|c| leg[c] + share * (trunk[c] - leg[c]))
+            };
+            let k = (row as usize).min(rows - 2);
+            let t = (row - k as f64).clamp(0.0, 1.0);
+            let (a, b) = (place(k), place(k + 1));
+            positions[particle] =
+                Point3::new(a[0] + t * (b[0] - a[0]), course.at(at), a[1] + t * (b[1] - a[1]));
+        }
+    }
+}
+
+/// Where the heights of a leg begin.
+struct Course {
+    /// Height of the fork, m.
+    fork: f64,
+    /// Height that is left for a length of leg, as a share of it.
+    share: f64,
+    /// Depth of its folds, m.
+    depth: f64,
+}
+
+impl Course {
+    /// The course of legs that belong between the heights `low` and `fork`.
+    fn new(wrapped: &Wrapped, low: f64, fork: f64) -> Self {
+        let ankle = wrapped.limb().and_then(|(points, _)| points.last()).map_or(0.0, |p| p.y);
+        let room = fork - DOWN - (low - DOWN).max(ankle + ANKLE);
+        let share = (room / (fork - low).max(ROW)).clamp(0.5, 1.0);
+        // A sine of slope a along the leg is longer than its run by a share of a²/4.
+        let slope = 2.0 * (1.0 / share - 1.0).sqrt();
+        Course { fork, share, depth: 2.0 * slope * share * FOLD / TAU }
+    }
+
+    /// Where a height begins, m.
+    fn at(&self, height: f64) -> f64 {
+        let below = (self.fork - height).max(0.0);
+        height - DOWN + below * (1.0 - self.share)
+    }
+
+    /// How far the cloth of a height stands off its tube in a fold, m.
+    fn bulge(&self, height: f64) -> f64 {
+        let below = (self.fork - height).max(0.0);
+        0.5 * self.depth * (1.0 - libm::cos(below / FOLD * TAU))
+    }
+}
+
+impl<'a> Piece<'a> {
+    fn new(compiled: &Compiled, wrapped: &'a Wrapped<'a>, low: f64, rows: usize) -> Self {
+        let panel = wrapped.panel(compiled);
+        let sign = if centre(wrapped.body, wrapped.landmark).x < 0.0 { -1.0 } else { 1.0 };
+        let places: Vec<(usize, [f64; 2])> = drawing(compiled, panel).collect();
+        let of = |k: u32| places[k as usize - panel.particles.range().start].1;
+        let mut reach: Vec<Option<[f64; 2]>> = vec![None; rows];
+        let mut note = |row: usize, out: f64| {
+            let r = reach[row].get_or_insert([out, -out]);
+            *r = [r[0].max(out), r[1].max(-out)];
+        };
+        if let Some(ring) = panel.loops.first() {
+            for (i, k) in ring.iter().enumerate() {
+                // Every row that a side of the outline passes.
+                let (p, q) = (of(*k), of(ring[(i + 1) % ring.len()]));
+                let (a, b) = (height(wrapped, p[1]), height(wrapped, q[1]));
+                let (from, to) = ((a.min(b) - low) / ROW, (a.max(b) - low) / ROW);
+                for row in from.floor().max(0.0) as usize..=(to.ceil() as usize).min(rows - 1) {
+                    let t = if (b - a).abs() > 1e-9 {
+                        ((low + row as f64 * ROW - a) / (b - a)).clamp(0.0, 1.0)
+                    } else {
+                        0.5
+                    };
+                    note(row, outwards(wrapped, sign, p[0] + t * (q[0] - p[0])));
+                }
+            }
+        }
+        Piece { wrapped, sign, reach }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::surface::{Landmark, SurfaceKind};
+
+    /// A leg of 80 cm from the crotch to the floor, whose ankle is at 8 cm.
+    fn body() -> Surface {
+        let mut body = Surface { kind: SurfaceKind::Body, ..Default::default() };
+        for (name, x) in [("leg.left", 0.09), ("leg.right", -0.09)] {
+            let points = vec![Point3::new(x, 0.8, 0.0), Point3::new(x, 0.08, 0.0)];
+            let limb = Landmark::Limb { points, radii: vec![0.08, 0.04] };
+            body.landmarks.insert(name.to_owned(), limb);
+        }
+        body
+    }
+
+    fn leg<'a>(body: &'a Surface, side: Side) -> Wrapped<'a> {
+        Wrapped { number: 0, body, landmark: "leg.left", level: None, side, anchor: 0.0, gap: 0.03 }
+    }
+
+    /// Legs that reach the floor begin with their hems over the ankles; the cloth of each fold is as
+    /// long as it is drawn, to 2 %: the sine's length is taken to second order in its slope.
+    #[test]
+    fn long_legs_begin_pushed_up_in_folds_of_the_right_length() {
+        let body = body();
+        let course = Course::new(&leg(&body, Side::Before), 0.0, 0.75);
+        assert!(course.at(0.0) >= 0.08 + ANKLE - 1e-12);
+        assert!((course.at(0.9) - 0.85).abs() < 1e-12, "above the fork all is let down");
+        let steps = 1000;
+        let along = |k: usize| 0.75 - FOLD * k as f64 / steps as f64;
+        let length: f64 = (0..steps)
+            .map(|k| {
+                let (a, b) = (along(k), along(k + 1));
+                libm::hypot(course.at(a) - course.at(b), course.bulge(a) - course.bulge(b))
+            })
+            .sum();
+        assert!((length / FOLD - 1.0).abs() < 0.02, "{length}");
+        let shorts = Course::new(&leg(&body, Side::Before), 0.5, 0.75);
+        assert!(shorts.depth == 0.0 && (shorts.at(0.5) - 0.45).abs() < 1e-12);
+    }
+
+    /// The outside of the left leg is to the right in the drawing of a front, to the left in that of
+    /// a back.
+    #[test]
+    fn fronts_and_backs_meet_at_the_outside() {
+        let body = body();
+        assert!(outwards(&leg(&body, Side::Before), 1.0, 0.1) > 0.0);
+        assert!(outwards(&leg(&body, Side::Behind), 1.0, -0.1) > 0.0);
+        assert!(outwards(&leg(&body, Side::Before), -1.0, -0.1) > 0.0);
+    }
+}
