@@ -248,7 +248,7 @@ mod tests {
     }
 
     /// Legs that reach the floor begin with their hems over the ankles; the cloth of each fold is as
-    /// long as it is drawn, to 2 %: the sine's length is taken to second order in its slope.
+    /// long as it is drawn, to 4 %: of the sine's length the term -3a⁴/64 is left out, with a = 0.96.
     #[test]
     fn long_legs_begin_pushed_up_in_folds_of_the_right_length() {
         let body = body();
@@ -263,7 +263,7 @@ mod tests {
                 libm::hypot(course.at(a) - course.at(b), course.bulge(a) - course.bulge(b))
             })
             .sum();
-        assert!((length / FOLD - 1.0).abs() < 0.02, "{length}");
+        assert!((length / FOLD - 1.0).abs() < 0.04, "{length}");
         let shorts = Course::new(&leg(&body, Side::Before), 0.5, 0.75);
         assert!(shorts.depth == 0.0 && (shorts.at(0.5) - 0.45).abs() < 1e-12);
     }
