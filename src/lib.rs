@@ -30,6 +30,8 @@ pub mod syntax;
 
 pub mod evaluate;
 
+pub mod lsp;
+
 pub mod mesh;
 
 pub mod body;

@@ -5,6 +5,14 @@ use crate::mesh::compiled::Compiled;
 use serde::Serialize;
 use std::path::PathBuf;
 
+/// The folder for files that can be made again; none where the system names none.
+pub(super) fn folder() -> Option<PathBuf> {
+    let folder = std::env::var_os("XDG_CACHE_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cache")))?;
+    Some(folder.join("darzi"))
+}
+
 /// The place of one drape.
 pub(super) struct Cache {
     file: PathBuf,
@@ -14,10 +22,7 @@ impl Cache {
     /// The place for the drape of `compiled`; none where the system names no folder for such
     /// files. Pictures and colours do not enter: another view of the same drape finds it.
     pub(super) fn of(compiled: &Compiled) -> Option<Self> {
-        let folder = std::env::var_os("XDG_CACHE_HOME")
-            .map(PathBuf::from)
-            .or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cache")))?
-            .join("darzi");
+        let folder = folder()?;
         let mut mesh = compiled.clone();
         mesh.pictures.clear();
         mesh.atlas = Default::default();

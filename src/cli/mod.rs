@@ -11,6 +11,7 @@ mod difference;
 mod drape;
 mod explain;
 mod fmt;
+mod lsp;
 mod new;
 mod output;
 mod project;
@@ -53,6 +54,8 @@ enum Command {
     New(new::New),
     /// Say what the code of a message means
     Explain(explain::Explain),
+    /// Serve an editor: messages, completion, names, layout
+    Lsp(lsp::Lsp),
 }
 
 /// What every command that reads a `.garment` file takes.
@@ -164,6 +167,7 @@ pub fn main() -> ExitCode {
         Command::Render(it) => it.run(),
         Command::New(it) => it.run(),
         Command::Explain(it) => it.run(),
+        Command::Lsp(it) => it.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -78,6 +78,16 @@ pub struct Label {
     pub text: String,
 }
 
+impl Label {
+    /// What it says to write in its place: the `width` of `` did you mean `width`? `` or the
+    /// `3cm` of `` write `3cm` ``.
+    pub fn suggestion(&self) -> Option<&str> {
+        let meant = || self.text.strip_prefix("did you mean `")?.strip_suffix("`?");
+        let written = || self.text.strip_prefix("write `")?.strip_suffix('`');
+        meant().or_else(written).filter(|new| !new.contains(['`', '\n']))
+    }
+}
+
 /// One message about a text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Diagnostic {
@@ -151,6 +161,15 @@ pub fn in_order(root: FileId, told: &mut [Diagnostic]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_label_says_what_to_write() {
+        let label = |text: &str| Label { span: Span::default(), text: text.to_owned() };
+        assert_eq!(label("did you mean `width`?").suggestion(), Some("width"));
+        assert_eq!(label("write `3cm`").suggestion(), Some("3cm"));
+        assert_eq!(label("write `x` between sizes, `*` to multiply").suggestion(), None);
+        assert_eq!(label("here").suggestion(), None);
+    }
 
     #[test]
     fn messages_follow_the_text_and_the_file_in_hand_comes_first() {

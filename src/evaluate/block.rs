@@ -60,6 +60,18 @@ fn replaces(statement: &Statement) -> Option<&str> {
     }
 }
 
+/// The name that a line gives.
+fn named(statement: &Statement) -> Option<&Name> {
+    match &statement.kind {
+        StatementKind::Let { name, .. }
+        | StatementKind::Param { name, .. }
+        | StatementKind::Function { name, .. } => Some(name),
+        StatementKind::Property { key, .. } => Some(key),
+        StatementKind::Line { word, phrase, .. } if word.text == "fit" => labelled(phrase),
+        _ => None,
+    }
+}
+
 /// The first word of a labelled action: `shaping: dart on …`.
 fn labelled(phrase: &[Item]) -> Option<&Name> {
     match phrase.first() {
@@ -101,6 +113,12 @@ impl<'t> Evaluator<'t> {
                 });
                 if parameter {
                     if let [Item::Expr(value)] = phrase.as_slice() {
+                        let names = merged.statements.iter().filter_map(|old| named(old));
+                        let declared: Vec<Span> = names
+                            .filter(|name| name.text == key.text)
+                            .map(|name| name.span)
+                            .collect();
+                        self.note_places(key.span, declared);
                         merged.settings.push(Setting { name: key, value, scope: None });
                         continue;
                     }
@@ -116,7 +134,15 @@ impl<'t> Evaluator<'t> {
             let place =
                 merged.statements.iter().position(|old| name.is_some() && replaces(old) == name);
             match place {
-                Some(place) => merged.statements[place] = statement,
+                Some(place) => {
+                    if let Some((new, old)) =
+                        named(statement).zip(merged.statements.get(place).and_then(|s| named(s)))
+                        && new.text == old.text
+                    {
+                        self.note_replaced(new, old);
+                    }
+                    merged.statements[place] = statement;
+                }
                 None => added.push(statement),
             }
         }

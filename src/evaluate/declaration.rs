@@ -189,7 +189,7 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Whether a scope belongs to a panel that was opened only to try a value of a fit.
-    fn is_trial(&self, scope: ScopeId) -> bool {
+    pub(super) fn is_trial(&self, scope: ScopeId) -> bool {
         let mut at = Some(scope);
         while let Some(id) = at {
             if self.trials.contains(&id) {

@@ -20,13 +20,16 @@ impl<'t> Evaluator<'t> {
         if !self.step(1, expr.span) {
             return Value::Poison;
         }
-        self.deeper(expr.span, |ev| ev.eval_kind(expr, scope))
+        let value = self.deeper(expr.span, |ev| ev.eval_kind(expr, scope));
+        self.note_value(expr, scope, &value);
+        value
     }
 
     /// As [`Self::eval`]; a name that nobody declared is looked up in these library modules.
     pub fn eval_with(&mut self, arg: Arg<'t>, libraries: &[&str]) -> Value {
         let Some(name) = bare(arg.expr) else { return self.eval(arg.expr, arg.scope) };
         if let Some(id) = self.find(arg.scope, &name.text) {
+            self.note_use(name.span, id);
             return self.binding_value(id, name.span);
         }
         for library in libraries {
@@ -36,6 +39,7 @@ impl<'t> Evaluator<'t> {
                 .and_then(|scope| self.scopes.get(scope.0))
                 .and_then(|scope| scope.names.get(&name.text));
             if let Some(&id) = found {
+                self.note_use(name.span, id);
                 return self.binding_value(id, name.span);
             }
         }
@@ -45,6 +49,7 @@ impl<'t> Evaluator<'t> {
             .values()
             .find_map(|scope| self.scopes.get(scope.0)?.names.get(&name.text).copied());
         if let Some(id) = elsewhere {
+            self.note_use(name.span, id);
             return self.binding_value(id, name.span);
         }
         let mut own: Vec<String> = Vec::new();
@@ -231,7 +236,10 @@ impl<'t> Evaluator<'t> {
     fn path(&mut self, names: &'t [Name], scope: ScopeId) -> Value {
         match names {
             [name] => match self.find(scope, &name.text) {
-                Some(id) => self.binding_value(id, name.span),
+                Some(id) => {
+                    self.note_use(name.span, id);
+                    self.binding_value(id, name.span)
+                }
                 None => {
                     let known = self.visible(scope);
                     self.tell_unknown(name, &known, None);
@@ -250,7 +258,10 @@ impl<'t> Evaluator<'t> {
                     return Value::Poison;
                 };
                 match self.find(inner, &name.text) {
-                    Some(id) => self.binding_value(id, name.span),
+                    Some(id) => {
+                        self.note_use(name.span, id);
+                        self.binding_value(id, name.span)
+                    }
                     None => {
                         let known = self.visible(inner);
                         let label = self.meant(&name.text, known.iter().map(String::as_str));
@@ -369,10 +380,11 @@ impl<'t> Evaluator<'t> {
         if let Some(name) = bare(base) {
             let family =
                 self.find(scope, &name.text).and_then(|id| match &self.bindings[id.0].what {
-                    What::Family(members) => Some(members.clone()),
+                    What::Family(members) => Some((id, members.clone())),
                     _ => None,
                 });
-            if let Some(members) = family {
+            if let Some((id, members)) = family {
+                self.note_use(name.span, id);
                 return self.family_members(name, &members, numbers, scope);
             }
         }

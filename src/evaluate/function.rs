@@ -28,6 +28,11 @@ const OWN: &[(&str, &str)] = &[
     ("match", "match(NAME, OPTION: VALUE, OPTION: VALUE, …)"),
 ];
 
+/// The language's own functions, each with how it is called.
+pub fn functions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    OWN.iter().copied()
+}
+
 /// Deepest nesting of calls.
 const CALLS: usize = 64;
 
@@ -52,6 +57,7 @@ impl<'t> Evaluator<'t> {
         if let Some(id) = self.find(scope, &name.text) {
             if let What::Function { formals, kind, value } = self.bindings[id.0].what.clone() {
                 let home = self.bindings[id.0].scope;
+                self.note_use(name.span, id);
                 return self.call_own(name, formals, kind, value, home, arguments, scope, span);
             }
             if !OWN.iter().any(|(own, _)| *own == name.text) {
@@ -128,6 +134,9 @@ impl<'t> Evaluator<'t> {
             let value = match found {
                 Some(place) => {
                     given[place].1 = true;
+                    if let Some(said) = &given[place].0.name {
+                        self.note_places(said.span, [formal.name.span]);
+                    }
                     let expr = &given[place].0.value;
                     self.of_kind(Arg { expr, scope, of: &formal.name.text }, Some(&formal.kind))
                 }

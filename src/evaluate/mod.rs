@@ -11,6 +11,7 @@ mod choice;
 mod declaration;
 mod drape;
 mod expression;
+pub mod facts;
 pub mod fields;
 pub mod figure;
 mod function;
@@ -39,8 +40,11 @@ use crate::garment::Garment;
 use crate::syntax::tree::Expr;
 use crate::units::Quantity;
 use crate::world::World;
+use facts::{Facts, Notes};
+pub use function::functions;
 use item::{Item, ItemId};
 use module::{Asked, Loaded};
+pub use read::kinds;
 use scope::{Binding, BindingId, Scope, ScopeId, Waiting};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -79,6 +83,25 @@ pub fn evaluate(
     root: FileId,
     options: &Options,
 ) -> (Vec<Garment>, Vec<Diagnostic>) {
+    let (garments, told, _) = work(world, root, options, false);
+    (garments, told)
+}
+
+/// As [`evaluate()`], and notes on the way what there is to know about the text.
+pub fn study(
+    world: &mut dyn World,
+    root: FileId,
+    options: &Options,
+) -> (Vec<Garment>, Vec<Diagnostic>, Facts) {
+    work(world, root, options, true)
+}
+
+fn work(
+    world: &mut dyn World,
+    root: FileId,
+    options: &Options,
+    noted: bool,
+) -> (Vec<Garment>, Vec<Diagnostic>, Facts) {
     let (files, asked, mut told) = module::load(world, root, &options.set);
     // Values nest as deep as the text makes them; the work gets a stack that holds the limit.
     let worked = std::thread::scope(|scope| {
@@ -86,15 +109,17 @@ pub fn evaluate(
             .stack_size(STACK)
             .spawn_scoped(scope, || {
                 let mut evaluator = Evaluator::new(&files, &asked, root, options.size.as_deref());
+                evaluator.notes = noted.then(Box::default);
                 let garments = evaluator.file(&options.names);
-                (garments, evaluator.told)
+                let facts = evaluator.facts();
+                (garments, evaluator.told, facts)
             })
             .map(std::thread::ScopedJoinHandle::join)
     });
-    let garments = match worked {
-        Ok(Ok((garments, more))) => {
+    let (garments, facts) = match worked {
+        Ok(Ok((garments, more, facts))) => {
             told.extend(more);
-            garments
+            (garments, facts)
         }
         Ok(Err(panic)) => std::panic::resume_unwind(panic),
         Err(error) => {
@@ -102,11 +127,11 @@ pub fn evaluate(
                 Diagnostic::new("E0911", format!("there is no room to work: {error}"))
                     .at(Span::new(root, 0, 0), ""),
             );
-            Vec::new()
+            Default::default()
         }
     };
     in_order(root, &mut told);
-    (garments, told)
+    (garments, told, facts)
 }
 
 /// Everything known while a file is worked out.
@@ -149,6 +174,8 @@ pub struct Evaluator<'t> {
     told: Vec<Diagnostic>,
     /// Numbers of what was told, by main place and code.
     told_at: BTreeMap<(Option<Span>, String), Vec<usize>>,
+    /// What is noted for editors, if that is asked for.
+    notes: Option<Box<Notes>>,
     depth: usize,
     steps: u64,
     turns: usize,
@@ -185,6 +212,7 @@ impl<'t> Evaluator<'t> {
             calling: Vec::new(),
             told: Vec::new(),
             told_at: BTreeMap::new(),
+            notes: None,
             depth: 0,
             steps: 0,
             turns: 0,

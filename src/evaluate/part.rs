@@ -30,15 +30,18 @@ impl<'t> Evaluator<'t> {
         self.ends(id, base)?;
         let given = self.read_settings(id, &phrase);
         let merged = self.merged(base, 0)?;
-        let known: Vec<&str> = merged
+        let parameters: Vec<&'t Name> = merged
             .statements
             .iter()
             .filter_map(|statement| match &statement.kind {
-                StatementKind::Param { name, .. } => Some(name.text.as_str()),
+                StatementKind::Param { name, .. } => Some(name),
                 _ => None,
             })
             .collect();
+        let known: Vec<&str> = parameters.iter().map(|name| name.text.as_str()).collect();
         for setting in &given {
+            let declared = parameters.iter().filter(|name| name.text == setting.name.text);
+            self.note_places(setting.name.span, declared.map(|name| name.span));
             if !known.contains(&setting.name.text.as_str()) {
                 let block = self.item(base).name.clone();
                 let message = format!("`{block}` has no parameter `{}`", setting.name.text);
@@ -168,6 +171,7 @@ impl<'t> Evaluator<'t> {
     pub(super) fn part_member(&mut self, part: ItemId, name: &'t Name, at: Span) -> Value {
         let Some(Made::Opened(scope)) = self.make(part, at) else { return Value::Poison };
         if let Some(binding) = self.own_name(scope, &name.text) {
+            self.note_use(name.span, binding);
             return self.binding_value(binding, name.span);
         }
         let mut edges: Vec<(ItemId, Value)> = Vec::new();
@@ -177,6 +181,7 @@ impl<'t> Evaluator<'t> {
             let Some(draft) = self.panel(panel, name.span) else { return Value::Poison };
             let found = if draft.edge_names().contains(&name.text.as_str()) {
                 let (draft, edge) = (draft.clone(), name.text.clone());
+                self.note_edge(name, draft.declared(&edge));
                 let which = Which::default();
                 Some(Value::Edges(vec![EdgeRef { draft, which, edge, part: None }]))
             } else if draft.parts().contains(&name.text.as_str()) {
@@ -235,6 +240,7 @@ impl<'t> Evaluator<'t> {
         let Value::Item(part) = self.eval(inner, scope) else { return None };
         let Some(Made::Opened(scope)) = self.make(part, inner.span) else { return None };
         let binding = self.own_name(scope, &name.text)?;
+        self.note_use(name.span, binding);
         match &self.bindings[binding.0].what {
             What::Family(members) => Some((name, members.clone())),
             _ => None,
@@ -242,12 +248,12 @@ impl<'t> Evaluator<'t> {
     }
 
     /// A name that a block gives away.
-    fn own_name(&self, scope: ScopeId, name: &str) -> Option<super::scope::BindingId> {
+    pub(super) fn own_name(&self, scope: ScopeId, name: &str) -> Option<super::scope::BindingId> {
         let binding = *self.scopes.get(scope.0)?.names.get(name)?;
         self.gives_away(binding).then_some(binding)
     }
 
-    fn own_names(&self, scope: ScopeId) -> Vec<String> {
+    pub(super) fn own_names(&self, scope: ScopeId) -> Vec<String> {
         let names = self.scopes.get(scope.0).map(|scope| &scope.names);
         let given = names.into_iter().flatten().filter(|(_, id)| self.gives_away(**id));
         given.map(|(name, _)| name.clone()).collect()

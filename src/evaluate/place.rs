@@ -78,6 +78,15 @@ impl Landmark {
     }
 }
 
+/// Names of the places of every body, as a text writes them.
+pub(super) fn places() -> impl Iterator<Item = String> {
+    let single = SINGLE.iter().map(|place| (*place).to_owned());
+    let sided = SIDED.iter().filter(|place| **place != "hip").flat_map(|place| {
+        ["", "left_", "right_"].into_iter().map(move |side| format!("{side}{place}"))
+    });
+    single.chain(sided)
+}
+
 impl<'t> Evaluator<'t> {
     /// `lady.waist`: a measure or a place.
     pub(super) fn measure(&mut self, wearer: ItemId, name: &'t Name) -> Value {

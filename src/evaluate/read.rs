@@ -25,6 +25,11 @@ const KINDS: &[(&str, Option<Dimension>)] = &[
     ("edge", None),
 ];
 
+/// Kinds of value that `param a: kind` and functions name.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    KINDS.iter().map(|(kind, _)| *kind)
+}
+
 impl<'t> Evaluator<'t> {
     /// A quantity of the wanted dimension, in SI units; anything else is told (E0302, E0304).
     pub fn quantity(&mut self, arg: Arg<'t>, wanted: Dimension) -> Option<f64> {

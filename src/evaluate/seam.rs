@@ -286,6 +286,7 @@ impl<'t> Evaluator<'t> {
 
     fn lengths_agree(&mut self, seam: &Pending<'_, 't>) -> bool {
         let (a, b) = (length(&seam.a), length(&seam.b));
+        self.note_seam(seam.phrase.span, a, b);
         let (long, short) = (a.max(b), a.min(b));
         let tolerance = TOLERANCE.0.max(TOLERANCE.1 * long);
         let phrase = seam.phrase;

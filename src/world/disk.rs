@@ -23,7 +23,8 @@ impl Disk {
         Disk { root: root.into(), opened: Opened::default() }
     }
 
-    fn read(root: &Path, path: &str) -> Result<String, String> {
+    /// The text of a file below `root`.
+    pub(super) fn read(root: &Path, path: &str) -> Result<String, String> {
         let said = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => format!("there is no `{path}`{}", near(root, path)),
             std::io::ErrorKind::PermissionDenied => format!("`{path}` may not be read"),

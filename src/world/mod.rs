@@ -1,11 +1,13 @@
 //! Every read of a text goes through a [`World`]: the disk, the library inside the program,
 //! or a table in memory for tests.
 
+mod desk;
 mod disk;
 pub mod library;
 mod memory;
 pub mod path;
 
+pub use desk::Desk;
 pub use disk::Disk;
 pub use memory::Memory;
 

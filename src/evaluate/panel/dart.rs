@@ -46,6 +46,7 @@ impl<'t> Evaluator<'t> {
                 .enumerate()
                 .find(|(_, edge)| edge.name.as_deref() == Some(name.text.as_str()));
             if let Some((place, edge)) = found {
+                self.note_edge(name, [edge.span]);
                 return Some((ring, place, edge));
             }
         }

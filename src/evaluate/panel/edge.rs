@@ -193,12 +193,14 @@ impl<'t> Evaluator<'t> {
         }
         if draft.edge_names().contains(&name.text.as_str()) {
             let edge = name.text.clone();
+            self.note_edge(name, draft.declared(&edge));
             return Value::Edges(vec![EdgeRef { draft, which: chosen, edge, part: None }]);
         }
         // Names of rows of edges and of lengths, given by `let` in the panel.
         let own = self.scopes.get(draft.scope.0).and_then(|scope| scope.names.get(&name.text));
         if let Some(&binding) = own {
             if matches!(self.bindings[binding.0].what, What::Let(_) | What::Given(_)) {
+                self.note_use(name.span, binding);
                 return match self.binding_value(binding, name.span) {
                     Value::Edges(edges) => Value::Edges(
                         edges
@@ -317,6 +319,7 @@ impl<'t> Evaluator<'t> {
                                 corner(piece, &edge.runs(&found), &neighbour.runs(next))
                             });
                             if let Some(point) = point {
+                                self.note_edge(name, edge.draft.declared(other));
                                 return Value::Mark(Mark {
                                     draft: edge.draft.clone(),
                                     piece: found.piece,
@@ -431,6 +434,7 @@ impl<'t> Evaluator<'t> {
             self.no_member(&title, name, draft.edge_names().into_iter());
             return None;
         }
+        self.note_edge(name, edge.draft.declared(&name.text));
         let whole = EdgeRef { part: None, ..edge.clone() };
         for found in whole.find() {
             let Some(piece) = edge.draft.pieces.get(found.piece) else { continue };

@@ -69,6 +69,7 @@ impl<'t> Evaluator<'t> {
         self.step(super::super::OPENING, span);
         let scope = self.new_scope(Some(parent));
         self.fits.insert(scope, values);
+        self.note_opened(scope, id);
         let instance = InstanceId(self.instances.len());
         // Conditions in the block may draw other panels meanwhile; the place is taken first.
         let empty = super::Fields {
@@ -146,7 +147,15 @@ impl<'t> Evaluator<'t> {
         let mut statements: Vec<&'t Statement> = block.statements.iter().collect();
         for edge in replaced {
             match statements.iter().position(|old| label(old) == label(edge)) {
-                Some(place) => statements[place] = edge,
+                Some(place) => {
+                    if let (StatementKind::Property { key, .. }, Some(old)) =
+                        (&edge.kind, statements.get(place))
+                        && let StatementKind::Property { key: replaced, .. } = &old.kind
+                    {
+                        self.note_replaced(key, replaced);
+                    }
+                    statements[place] = edge;
+                }
                 None => {
                     let known: Vec<&str> = statements.iter().filter_map(|s| label(s)).collect();
                     self.tell_no_edge(edge, &known);

@@ -163,6 +163,12 @@ impl Draft {
         names
     }
 
+    /// Where the edges of that name are declared.
+    pub(super) fn declared(&self, edge: &str) -> Vec<Span> {
+        let edges = self.pieces.first().map_or(&[][..], |piece| &piece.edges);
+        edges.iter().filter(|known| known.name == edge).map(|known| known.span).collect()
+    }
+
     /// Names of its halves and copies.
     pub fn parts(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();

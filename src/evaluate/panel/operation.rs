@@ -166,6 +166,7 @@ impl<'t> Evaluator<'t> {
             self.no_member("this panel", name, known.iter().map(String::as_str));
             return None;
         };
+        self.note_edge(name, [edge.span]);
         let straight = match edge.stretches.as_slice() {
             [one] if one.ring == 0 => sheet.rings[0].get(one.piece).filter(|path| {
                 let ends = curve::end(path) - curve::start(path);
