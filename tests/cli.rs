@@ -342,3 +342,106 @@ fn codes_are_explained() {
     let (end, report) = said(&["check", "a.garment"]);
     assert!(end == 1 && report.ends_with("`darzi explain E0102` says more\n"), "{report}");
 }
+
+const SKIRT: &str = "garment skirt {
+    param length = 60cm in 40cm..90cm
+    wearer lady = female { size: EU 38 }
+    grade: EU 38, EU 46
+    panel front of denim {
+        fit wide in 30cm..60cm until waist.length = (lady.waist + 2cm) / 2
+        grid: 2cm
+        outline from (0, 0) {
+            waist: line to (wide, 0)
+            side: line by (0, -length)
+            hem: line to (0, -length)
+            other: line to start
+        }
+    }
+    panel back = front
+    seam front.side -> back.side
+    seam front.other -> back.other zip 18cm from waist
+    place front before lady.waist
+    place back behind lady.waist
+}
+";
+
+/// One text, a mesh for each size; what is wrong in one size only is told with its name.
+#[test]
+fn a_garment_is_cut_in_all_its_sizes() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("skirt.garment");
+    std::fs::write(&file, SKIRT).unwrap();
+    let call = |arguments: &[&str]| darzi(folder.path(), arguments);
+    let made = call(&["compile", "skirt.garment", "-o", "out", "--grade"]);
+    assert_eq!(code(&made), 0, "{}", told(&made));
+    let own = call(&["compile", "skirt.garment", "-o", "own", "--for", "EU  46"]);
+    assert_eq!(code(&own), 0, "{}", told(&own));
+    let read = |path: &str| std::fs::read(folder.path().join(path)).unwrap();
+    assert_eq!(read("own/mesh.json"), read("out/EU-46/mesh.json"));
+    assert_ne!(read("out/EU-38/mesh.json"), read("out/EU-46/mesh.json"));
+
+    // 88 cm and 2 cm are more than the range of the fit allows.
+    std::fs::write(&file, SKIRT.replace("30cm..60cm", "30cm..44cm")).unwrap();
+    let checked = call(&["check", "skirt.garment", "--message-format", "short"]);
+    assert_eq!(code(&checked), 1);
+    assert_eq!(told(&checked).lines().count(), 1, "{}", told(&checked));
+    assert!(
+        told(&checked).contains("E0405") && told(&checked).contains("in size EU 46: no `wide`")
+    );
+    assert_eq!(code(&call(&["check", "skirt.garment", "--for", "EU 38"])), 0);
+    let unknown = call(&["check", "skirt.garment", "--for", "EU 47"]);
+    assert!(told(&unknown).contains("E0305") && code(&unknown) == 1);
+
+    std::fs::write(&file, SKIRT.replace("grade: EU 38, EU 46", "")).unwrap();
+    assert_eq!(code(&call(&["compile", "skirt.garment", "-o", "out", "--grade"])), 2);
+}
+
+/// Figures kept beside a text: new, as expected, changed, wrong.
+#[test]
+fn collections_are_tested_against_the_figures_that_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let test = |arguments: &[&str]| {
+        let output = darzi(folder.path(), &[&["test"], arguments].concat());
+        (code(&output), String::from_utf8(output.stdout).unwrap())
+    };
+    write("b_skirt.garment", SKIRT);
+    write("a_cloth.garment", "fabric cloth = cotton with { friction: 0.4 }");
+    write("c_warned.garment", "//~ E0201\nlet x = y");
+    let (ends, said) = test(&[]);
+    assert_eq!(ends, 1);
+    assert_eq!(
+        said,
+        "ok       ./a_cloth.garment
+new      ./b_skirt.garment: nothing is kept to compare it with
+ok       ./c_warned.garment
+2 as expected, 1 new
+`darzi test --accept` keeps the figures as they are now
+"
+    );
+    assert_eq!(test(&["--accept"]).0, 0);
+    assert_eq!(test(&[]).0, 0);
+    let kept = std::fs::read_to_string(folder.path().join("b_skirt.expected.json")).unwrap();
+    assert!(kept.contains("\"waist\": 37.0"), "{kept}");
+    assert!(kept.contains("\"lengths_cm\": [60.0, 60.0]"), "{kept}");
+
+    write("b_skirt.garment", &SKIRT.replace("length = 60cm", "length = 62cm"));
+    let (ends, said) = test(&["b_skirt.garment"]);
+    assert_eq!(ends, 1);
+    for line in [
+        "skirt: front.side 60 → 62 cm (+2)",
+        "skirt: front, area 2220 → 2294 cm² (+74)",
+        "skirt: seam front.side -> back.side: 60 to 60 cm, ease 0 mm → 62 to 62 cm, ease 0 mm",
+        "skirt in EU 46: 9 figures changed",
+    ] {
+        assert!(said.contains(line), "{line} in\n{said}");
+    }
+    write("b_skirt.garment", &SKIRT.replace("denim", "denin"));
+    write("c_warned.garment", "//~ E0201\nlet x = 3cm");
+    let (ends, said) = test(&[]);
+    assert_eq!(ends, 1);
+    assert!(said.contains("did you mean `denim`?") && said.contains("E0201 is expected, nothing"));
+    assert_eq!(test(&["nowhere"]).0, 2);
+    let kept_again = std::fs::read_to_string(folder.path().join("b_skirt.expected.json")).unwrap();
+    assert_eq!(kept, kept_again, "nothing is accepted unasked");
+}

@@ -1,12 +1,13 @@
-//! `darzi check`: what is wrong with a file.
+//! `darzi check`: what is wrong with a file, in its own size and in all of its `grade`.
 
 use super::project::Project;
-use super::{Input, Stop};
+use super::{Input, Stop, graded};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   darzi check skirt.garment
   darzi check skirt.garment --set length=70cm
+  darzi check skirt.garment --for \"EU 42\"
   darzi check skirt.garment --message-format json")]
 pub(super) struct Check {
     #[command(flatten)]
@@ -22,6 +23,10 @@ impl Check {
         for garment in &garments {
             let compiled = crate::mesh::compile(garment, &options);
             told.extend(compiled.err().into_iter().flatten());
+        }
+        if self.input.fit.is_none() {
+            let sizes = graded::sizes(&mut project, &self.input, &garments, &options);
+            told.extend(graded::beyond(&told, &sizes));
         }
         project.tell_all(told)
     }

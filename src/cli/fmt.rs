@@ -115,7 +115,7 @@ impl Fmt {
 
 /// The `.garment` files in a folder and in the folders below it, in the order of their names.
 /// Hidden folders and links to folders are left out.
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Stop> {
+pub(super) fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Stop> {
     let failed = |error: std::io::Error| {
         Stop::Call(format!("cannot read the folder `{}`: {error}", folder.display()))
     };

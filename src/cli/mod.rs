@@ -9,13 +9,16 @@ mod check;
 mod compile;
 mod difference;
 mod drape;
+mod expected;
 mod explain;
 mod fmt;
+mod graded;
 mod lsp;
 mod new;
 mod output;
 mod project;
 mod render;
+mod test;
 
 use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -42,6 +45,8 @@ struct Cli {
 enum Command {
     /// Read a file and say what is wrong with it
     Check(check::Check),
+    /// Compare files with the figures that are kept beside them
+    Test(test::Test),
     /// Give files their one layout
     Fmt(fmt::Fmt),
     /// Cut a garment into particles and seams: mesh.json and atlas.png
@@ -72,6 +77,10 @@ struct Input {
     /// Set a parameter: --set length=70cm (may be given more than once)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
+
+    /// Draft it for this size of the wearer's table, not for the wearer's own: --for "EU 42"
+    #[arg(long = "for", value_name = "SIZE")]
+    fit: Option<String>,
 
     /// How messages are written
     #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
@@ -161,6 +170,7 @@ fn say(text: &str) -> Result<(), Stop> {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Check(it) => it.run(),
+        Command::Test(it) => it.run(),
         Command::Fmt(it) => it.run(),
         Command::Compile(it) => it.run(),
         Command::Drape(it) => it.run(),

@@ -59,8 +59,19 @@ impl Project {
 
     /// Evaluates the file: its sound garments, and what there is to say of the others.
     pub(super) fn evaluate(&mut self, input: &Input) -> (Vec<Garment>, Vec<Diagnostic>) {
-        let options = evaluate::Options { set: input.set.clone(), ..Default::default() };
-        evaluate::evaluate(&mut self.world, self.root, &options)
+        self.evaluate_as(&evaluate::Options {
+            set: input.set.clone(),
+            size: input.fit.clone(),
+            ..Default::default()
+        })
+    }
+
+    /// Evaluates the file as it is asked for.
+    pub(super) fn evaluate_as(
+        &mut self,
+        options: &evaluate::Options,
+    ) -> (Vec<Garment>, Vec<Diagnostic>) {
+        evaluate::evaluate(&mut self.world, self.root, options)
     }
 
     /// Puts messages of several stages in the order of the text and tells them.
@@ -101,6 +112,11 @@ impl Project {
         Ok(garments.swap_remove(found))
     }
 
+    /// The texts of which messages speak.
+    pub(super) fn texts(&self) -> &dyn Texts {
+        &self.world
+    }
+
     /// Tells messages about the file.
     pub(super) fn tell(&self, diagnostics: &[Diagnostic]) {
         tell(diagnostics, &self.world, self.format);
@@ -110,13 +126,23 @@ impl Project {
 /// Tells messages about texts on standard error.
 pub(super) fn tell(diagnostics: &[Diagnostic], texts: &dyn Texts, format: MessageFormat) {
     let Some(first) = diagnostics.first() else { return };
+    let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    eprint!("{}", report(diagnostics, texts, format, color));
+    if format == MessageFormat::Human {
+        eprintln!("`darzi explain {}` says more", first.code);
+    }
+}
+
+/// Messages about texts as they are asked for.
+pub(super) fn report(
+    diagnostics: &[Diagnostic],
+    texts: &dyn Texts,
+    format: MessageFormat,
+    color: bool,
+) -> String {
     match format {
-        MessageFormat::Json => eprint!("{}", json::lines(diagnostics, texts)),
-        MessageFormat::Short => eprint!("{}", short::lines(diagnostics, texts)),
-        MessageFormat::Human => {
-            let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-            eprint!("{}", render::report(diagnostics, texts, color, 100));
-            eprintln!("`darzi explain {}` says more", first.code);
-        }
+        MessageFormat::Json => json::lines(diagnostics, texts),
+        MessageFormat::Short => short::lines(diagnostics, texts),
+        MessageFormat::Human => render::report(diagnostics, texts, color, 100),
     }
 }

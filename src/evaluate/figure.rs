@@ -130,7 +130,9 @@ pub(super) fn wearer(ev: &mut Evaluator<'_>, id: ItemId) -> Option<BodyRequest> 
     let Made::Body(body) = ev.make(base, arg.expr.span)? else { return None };
     let fields = ev.open_item(id)?;
     let asked = match ev.size.zip(body.sizes) {
-        Some((asked, table)) => Some(row(ev, table, asked, phrase.span)?),
+        Some((asked, table)) => {
+            Some(row(ev, table, asked, (phrase.span, "another size is asked for"))?)
+        }
         None => None,
     };
     // Where a size or a measure is wrong, the body's own serve to look for further mistakes.
@@ -236,7 +238,7 @@ fn size<'t>(
         );
         return None;
     };
-    row(ev, table, &wanted, phrase.span)
+    row(ev, table, &wanted, (phrase.span, "here"))
 }
 
 /// The measures of a size in a table.
@@ -244,7 +246,7 @@ fn row(
     ev: &mut Evaluator<'_>,
     table: ItemId,
     wanted: &str,
-    at: Span,
+    (at, label): (Span, &str),
 ) -> Option<BTreeMap<String, f64>> {
     let Made::Sizes(sizes) = ev.make(table, at)? else { return None };
     let wanted = one_spaced(wanted);
@@ -253,7 +255,7 @@ fn row(
         let title = ev.item(table).name.clone();
         ev.tell(
             Diagnostic::new("E0305", format!("there is no size `{wanted}` in `{title}`"))
-                .at(at, "here")
+                .at(at, label)
                 .help(format!("there are {}", names.join(", "))),
         );
         return None;
@@ -299,7 +301,7 @@ impl<'t> Evaluator<'t> {
             };
             if name == "all" {
                 wanted.extend(sizes.rows.iter().map(|(name, _)| name.clone()));
-            } else if row(self, table, &name, span).is_some() {
+            } else if row(self, table, &name, (span, "here")).is_some() {
                 wanted.push(name);
             }
         }
