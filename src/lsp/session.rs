@@ -28,7 +28,7 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 /// How long an answer waits for the facts of the present text.
-const PATIENCE: Duration = Duration::from_millis(30);
+const PATIENCE: Duration = Duration::from_millis(20);
 
 /// How long it waits where older facts would do harm.
 const CARE: Duration = Duration::from_secs(5);
@@ -432,8 +432,12 @@ impl Session<'_> {
             "textDocument/references" | "textDocument/rename" => CARE,
             _ => Duration::ZERO,
         };
-        let known = self.documents.get(&uri).is_none_or(Document::is_known);
-        if known || patience.is_zero() {
+        let document = self.documents.get(&uri);
+        // What may be written follows from the text; figures beside it may be a moment old.
+        let enough = request.method == "textDocument/completion"
+            && document.is_some_and(|document| document.study.is_some());
+        let known = document.is_none_or(Document::is_known);
+        if known || enough || patience.is_zero() {
             self.answer(request);
         } else {
             self.waiting.push(Waiting { request, uri, until: Instant::now() + patience });

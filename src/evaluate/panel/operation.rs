@@ -101,7 +101,9 @@ impl<'t> Evaluator<'t> {
         }
         let (sheet, halves) = self.folded(&fields, sheet, item)?;
         let pieces = self.copies(&fields, sheet, halves.as_ref())?;
-        for piece in &pieces {
+        // The other piece of a pair is a mirror image, and what a fit only tries is not cut: the
+        // piece with the value that was found is looked at.
+        if let Some(piece) = pieces.first().filter(|_| !self.is_trial(fields.scope)) {
             sound &= self.sound_piece(piece, &name, span);
         }
         let (grain, cell, (layer, inside)) = (grain?, cell?, layer?);
