@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(at_end("dart on waist"), "dart|on||false");
         assert_eq!(at_end("dart on waist at 50% width"), "dart|width|LENGTH|false");
         assert_eq!(at_end("dart on waist at 50% width (a + "), "dart|width|LENGTH|true");
-        assert_eq!(at_end("shaping: dart on waist at 3cm +"), "dart|at|POSITION|true");
+        assert_eq!(at_end("shaping: dart on waist at 3cm +"), "dart|at|PLACE|true");
         assert_eq!(at_end("grid:"), "grid||LENGTH|false");
         assert_eq!(at_end("rectangle 3cm"), "rectangle||x|false");
         assert_eq!(at_end("rectangle 3cm x"), "rectangle||LENGTH|false");
