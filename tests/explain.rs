@@ -65,6 +65,64 @@ fn wrong_texts_give_their_code_and_right_texts_none() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// Texts with mistakes: those of the pages, and those whose messages are kept.
+fn mistaken() -> Vec<(String, String)> {
+    let mut texts: Vec<(String, String)> = pages()
+        .filter_map(|page| {
+            let mut wrong = page.examples().filter(|example| !example.right);
+            let first = wrong.next().filter(|example| example.file.is_none())?;
+            wrong.next().is_none().then(|| (page.code.to_owned(), first.text.to_owned()))
+        })
+        .collect();
+    for folder in ["tests/data/errors", "tests/data/mistakes"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let mut paths: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        for path in paths.iter().filter(|path| path.extension().is_some_and(|e| e == "garment")) {
+            texts.push((path.display().to_string(), fs::read_to_string(path).unwrap()));
+        }
+    }
+    texts
+}
+
+/// What a message says to write is right: typed in its place, that message is gone. Editors type
+/// it for the writer.
+#[test]
+fn what_a_label_says_to_write_helps() {
+    let told = |text: &str| {
+        let mut world = Memory::new([("main.garment", text)]);
+        let root = world.open("main.garment").unwrap();
+        (root, evaluate(&mut world, root, &Options::default()).1)
+    };
+    let mut typed = 0;
+    let mut wrong = Vec::new();
+    for (name, text) in mistaken() {
+        let (root, before) = told(&text);
+        for diagnostic in &before {
+            for label in diagnostic.labels.iter().filter(|label| label.span.file == root) {
+                let Some(new) = label.suggestion() else { continue };
+                let mut text = text.clone();
+                text.replace_range(label.span.start as usize..label.span.end as usize, new);
+                let (_, after) = told(&text);
+                let same = |all: &[Diagnostic]| {
+                    let alike = |d: &&Diagnostic| {
+                        (&d.code, &d.message) == (&diagnostic.code, &diagnostic.message)
+                    };
+                    all.iter().filter(alike).count()
+                };
+                if same(&after) >= same(&before) {
+                    let said = &diagnostic.message;
+                    wrong.push(format!("{name}: `{new}` does not help where {said}"));
+                }
+                typed += 1;
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(typed > 50, "only {typed} messages say what to write");
+}
+
 #[test]
 fn pages_without_examples_say_why() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

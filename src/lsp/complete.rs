@@ -4,10 +4,11 @@
 use super::clause::{self, Wanted};
 use super::describe;
 use super::document::{Document, Known};
+use super::members::members;
 use super::names::{self, Given};
 use super::outline::{Outline, Statement};
 use super::scan::Sort as Piece;
-use crate::evaluate::facts::{Definition, Sort};
+use crate::evaluate::facts::Sort;
 use crate::evaluate::words::{Element, Form, Kind, Vocabulary, Word, vocabulary};
 use crate::units::{self, Dimension};
 use gen_lsp_types::{
@@ -17,14 +18,22 @@ use gen_lsp_types::{
 use std::collections::BTreeSet;
 
 /// What is found, best first.
-struct Found {
+pub(super) struct Found {
     items: Vec<CompletionItem>,
     seen: BTreeSet<String>,
     range: Range,
 }
 
 impl Found {
-    fn add(&mut self, rank: u8, kind: CompletionItemKind, name: &str, detail: &str, doc: String) {
+    /// Adds a name unless it is there; a lower rank stands first.
+    pub(super) fn add(
+        &mut self,
+        rank: u8,
+        kind: CompletionItemKind,
+        name: &str,
+        detail: &str,
+        doc: String,
+    ) {
         if name.is_empty() || !self.seen.insert(name.to_owned()) {
             return;
         }
@@ -45,25 +54,18 @@ impl Found {
         });
     }
 
+    /// A word with which a line begins; a property with its colon.
     fn word(&mut self, rank: u8, word: &Word) {
-        let (name, usage) = (word.name, word.usage());
-        // Rows have a key of the writer's own.
-        if name.starts_with(|c: char| c.is_lowercase() || c.is_ascii_digit())
-            || name.chars().all(|c| c.is_alphanumeric()) && word.pattern != "LENGTH"
-        {
-            let kind = match word.form {
-                Form::Property => CompletionItemKind::Property,
-                Form::Action | Form::Item => CompletionItemKind::Keyword,
-            };
-            self.add(rank, kind, name, &usage, describe::word(word));
-            if let (Form::Property, Some(item)) = (word.form, self.items.last_mut()) {
-                if item.label == name {
-                    item.text_edit = Some(CompletionItemTextEdit::TextEdit(TextEdit {
-                        range: self.range,
-                        new_text: format!("{name}: "),
-                    }));
-                }
-            }
+        let before = self.items.len();
+        let property = word.form == Form::Property;
+        let kind =
+            if property { CompletionItemKind::Property } else { CompletionItemKind::Keyword };
+        self.add(rank, kind, word.name, &word.usage(), describe::word(word));
+        if let (true, Some(item)) = (property, self.items.get_mut(before)) {
+            item.text_edit = Some(CompletionItemTextEdit::TextEdit(TextEdit {
+                range: self.range,
+                new_text: format!("{}: ", word.name),
+            }));
         }
     }
 }
@@ -454,9 +456,8 @@ fn after_number(
     // Compound units of the wanted dimension, as the messages give them.
     for example in best.map_or("", Dimension::example).split('`').skip(1).step_by(2) {
         let unit = example.trim_start_matches(|c: char| c.is_ascii_digit() || ".e-".contains(c));
-        if let (Ok(read), Some(best)) = (units::unit(unit), best) {
+        if let (Ok(_), Some(best)) = (units::unit(unit), best) {
             found.add(0, CompletionItemKind::Unit, unit, best.name(), String::new());
-            debug_assert!(read.dimension == best || read.dimension.is_number());
         }
     }
     for unit in units::known() {
@@ -485,163 +486,4 @@ fn dimension_of(operand: &str) -> Option<Dimension> {
         "COUNT" => Dimension::COUNT,
         _ => return None,
     })
-}
-
-/// What may stand behind a point.
-fn members(
-    document: &Document,
-    known: Option<&Known>,
-    outline: &Outline,
-    dot: usize,
-    found: &mut Found,
-) {
-    let text = &*document.text.text;
-    let chain = chain(outline, text, dot);
-    let Some((&root, rest)) = chain.split_first() else { return };
-    let Some(token) = outline.tokens.get(root).copied() else { return };
-    let name = outline.slice(text, root);
-    let visible = names::visible(outline, text, token.start);
-    let given = visible.iter().find(|given| given.name == name);
-    let definition =
-        known.and_then(|known| meaning(known, outline, given, (token.start, token.end), name));
-    let mut of_panel: Vec<(String, &str, String)> = Vec::new();
-    if let Some(definition) = definition {
-        for member in &definition.members {
-            of_panel.push((member.name.clone(), member.what, member.text.clone()));
-        }
-    }
-    // A panel that cannot be cut still shows the names of its edges.
-    let item = given.and_then(|given| outline.statements.get(given.statement)?.block);
-    if of_panel.is_empty()
-        && let Some(block) = item
-    {
-        let inside = outline.blocks.get(block).map(|block| block.span.clone()).unwrap_or_default();
-        for given in names::visible(outline, text, inside.end) {
-            if given.sort == Sort::Edge {
-                of_panel.push((given.name.to_owned(), "edge", String::new()));
-            }
-        }
-    }
-    let is = |name: &str, what: &str| of_panel.iter().any(|(own, w, _)| own == name && *w == what);
-    let names: Vec<&str> = rest.iter().map(|token| outline.slice(text, *token)).collect();
-    let edge = given.is_some_and(|given| given.sort == Sort::Edge);
-    let worth = definition.and_then(|d| d.worth.first()).map_or("", |worth| worth.text.as_str());
-    match names.last().copied() {
-        None if edge => edge_members(&[], found),
-        None if worth.starts_with('(') => point_members(worth, found),
-        None if of_panel.is_empty() => edge_members(&[], found),
-        None => panel_members(&of_panel, found),
-        Some(last) if is(last, "half") => {
-            let edges: Vec<_> =
-                of_panel.iter().filter(|(_, what, _)| *what == "edge").cloned().collect();
-            panel_members(&edges, found);
-        }
-        Some(last) if is(last, "edge") => edge_members(&of_panel, found),
-        Some("start" | "middle" | "end") => point_members("", found),
-        Some(last) => {
-            let sided = of_panel.iter().any(|(own, ..)| *own == format!("left_{last}"));
-            if sided {
-                for side in ["left", "right"] {
-                    found.add(0, CompletionItemKind::Field, side, "", String::new());
-                }
-            } else if definition.is_none_or(|d| d.sort != Sort::Item(Kind::Wearer)) {
-                edge_members(&[], found);
-            }
-        }
-    }
-}
-
-fn panel_members(members: &[(String, &str, String)], found: &mut Found) {
-    for (name, what, text) in members {
-        let detail = if text.is_empty() { (*what).to_owned() } else { format!("{what}, {text}") };
-        let (rank, kind) = match *what {
-            "half" => (1, CompletionItemKind::Module),
-            "place" => (1, CompletionItemKind::Reference),
-            _ => (0, CompletionItemKind::Field),
-        };
-        found.add(rank, kind, name, &detail, String::new());
-    }
-}
-
-fn edge_members(edges: &[(String, &str, String)], found: &mut Found) {
-    for (name, about) in [
-        ("length", "as sewn"),
-        ("flat_length", "before darts"),
-        ("start", "a place"),
-        ("middle", "a place"),
-        ("end", "a place"),
-        ("at", "at(30%), a place"),
-    ] {
-        found.add(0, CompletionItemKind::Field, name, about, String::new());
-    }
-    for (name, what, _) in edges {
-        if *what == "edge" {
-            found.add(1, CompletionItemKind::Field, name, "the corner with it", String::new());
-        }
-    }
-}
-
-fn point_members(worth: &str, found: &mut Found) {
-    let axes = if worth.matches(", ").count() == 2 { &["x", "y", "z"][..] } else { &["x", "y"] };
-    for axis in axes {
-        found.add(0, CompletionItemKind::Field, axis, "", String::new());
-    }
-}
-
-/// What a name means: as it stands there, or as the name given in this text.
-fn meaning<'k>(
-    known: &'k Known,
-    outline: &Outline,
-    given: Option<&Given>,
-    (start, end): (usize, usize),
-    name: &str,
-) -> Option<&'k Definition> {
-    let own = given
-        .and_then(|given| outline.tokens.get(given.token))
-        .and_then(|token| known.definitions(token.start, token.end, name).into_iter().next());
-    own.or_else(|| known.definitions(start, end, name).into_iter().next()).or_else(|| {
-        // Brought in by `use`, in a line that is being written.
-        let all = &known.study.facts.definitions;
-        let found = |file: bool| {
-            all.iter().find(|d| {
-                d.name == name && !d.members.is_empty() && (d.span.file == known.study.root) == file
-            })
-        };
-        found(true).or_else(|| found(false))
-    })
-}
-
-/// The words of `front.left.side.` before its last point, from the first.
-fn chain(outline: &Outline, text: &str, dot: usize) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut at = dot;
-    while at > 0 && outline.slice(text, at) == "." {
-        let mut before = at - 1;
-        // `gore[2].hem`
-        while matches!(outline.slice(text, before), "]" | ")") {
-            let mut depth = 0_usize;
-            loop {
-                match outline.slice(text, before) {
-                    "]" | ")" => depth += 1,
-                    "[" | "(" => depth = depth.saturating_sub(1),
-                    _ => {}
-                }
-                if depth == 0 || before == 0 {
-                    break;
-                }
-                before -= 1;
-            }
-            let Some(next) = before.checked_sub(1) else { break };
-            before = next;
-        }
-        if outline.tokens.get(before).is_some_and(|token| token.sort == Piece::Word) {
-            found.push(before);
-        }
-        match before.checked_sub(1) {
-            Some(next) => at = next,
-            None => break,
-        }
-    }
-    found.reverse();
-    found
 }

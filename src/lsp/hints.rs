@@ -6,7 +6,7 @@ use super::outline::Outline;
 use crate::evaluate::facts::{Edge, Sort};
 use crate::units;
 use gen_lsp_types::{InlayHint, InlayHintKind, Label, Range};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Panels of which a line's edge is shown.
 const PANELS: usize = 3;
@@ -40,22 +40,22 @@ pub fn hints(document: &Document, known: &Known, within: Range) -> Vec<InlayHint
             *said = one;
         }
     }
+    let fits: BTreeSet<usize> = outline
+        .statements
+        .iter()
+        .filter(|statement| statement.word.is_some_and(|word| word.name == "fit"))
+        .filter_map(|statement| Some(outline.tokens.get(statement.head? + 1)?.start))
+        .collect();
     for definition in &known.study.facts.definitions {
         let own = definition.span.file == known.study.root && definition.sort == Sort::Value;
         let Some(span) = known.now(definition.span).filter(|_| own) else { continue };
         let start = span.start as usize;
-        let fit = outline.statements.iter().find(|statement| {
-            statement.word.is_some_and(|word| word.name == "fit")
-                && statement
-                    .head
-                    .and_then(|head| outline.tokens.get(head + 1))
-                    .is_some_and(|token| token.start == start)
-        });
         let worth = describe::worth(&definition.worth);
-        if fit.is_some() && !worth.is_empty() {
-            if let Some(end) = end_of(&outline, start).filter(|end| shown.contains(end)) {
-                at.insert(end, format!("{} = {worth}", definition.name));
-            }
+        if fits.contains(&start)
+            && !worth.is_empty()
+            && let Some(end) = end_of(&outline, start).filter(|end| shown.contains(end))
+        {
+            at.insert(end, format!("{} = {worth}", definition.name));
         }
     }
     at.into_iter()

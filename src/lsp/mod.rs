@@ -15,6 +15,7 @@ mod document;
 mod hints;
 mod hover;
 mod layout;
+mod members;
 mod names;
 mod outline;
 mod problems;
