@@ -2,7 +2,7 @@
 
 use super::nearby::Nearby;
 use super::polygon::{Place, between, distance, from_to, meeting};
-use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg};
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Rect};
 
 /// Places nearer to each other than this touch, m.
 const TOUCH: f64 = 1e-9;
@@ -10,6 +10,8 @@ const TOUCH: f64 = 1e-9;
 const CHORD: f64 = 1e-6;
 /// Chords of one curve segment at most.
 const MOST_CHORDS: f64 = 1024.0;
+/// Curves up to which each chord is compared with the boxes around all of them.
+const MOST_BOXES: usize = 100;
 
 /// A piece of a loop, and a place on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +52,14 @@ struct Chord {
 /// Crossings shallower than 1 µm may be missed; the place of a crossing is exact to 1 nm where
 /// the two curves meet at an angle.
 pub fn first_crossing(loops: &[Vec<BezPath>]) -> Option<Crossing> {
+    let (chords, ends) = chorded(loops);
+    // Most chords lie where no other curve can be; they are not asked about.
+    let asked = doubtful(loops, &chords);
+    crossing_among(loops, &chords, &ends, &asked)
+}
+
+/// All chords, and for each the first and the last one of its loop.
+fn chorded(loops: &[Vec<BezPath>]) -> (Vec<Chord>, Vec<(usize, usize)>) {
     let mut chords = Vec::new();
     let mut last_of_loop = Vec::new();
     for (ring, pieces) in loops.iter().enumerate() {
@@ -61,13 +71,25 @@ pub fn first_crossing(loops: &[Vec<BezPath>]) -> Option<Crossing> {
         }
         last_of_loop.resize(chords.len(), (first, chords.len().saturating_sub(1)));
     }
+    (chords, last_of_loop)
+}
+
+/// The first meeting of these chords.
+fn crossing_among(
+    loops: &[Vec<BezPath>],
+    chords: &[Chord],
+    ends: &[(usize, usize)],
+    asked: &[usize],
+) -> Option<Crossing> {
     let stretches: Vec<_> = chords.iter().map(|chord| chord.ends).collect();
-    let near = Nearby::new(&stretches);
-    for (number, chord) in chords.iter().enumerate() {
+    let places: Vec<_> = asked.iter().map(|&number| stretches[number]).collect();
+    let near = Nearby::new(&places);
+    for &number in asked {
+        let chord = &chords[number];
         let mut met: Option<(f64, usize, f64)> = None;
         for other in near.around(chord.ends, TOUCH) {
-            let other = other as usize;
-            let (first, last) = last_of_loop[number];
+            let other = asked[other as usize];
+            let (first, last) = ends[number];
             // Neighbours share an end, and lie on each other only if the line turns back.
             let next = if number == last { first } else { number + 1 };
             let found = if other <= number {
@@ -90,6 +112,54 @@ pub fn first_crossing(loops: &[Vec<BezPath>]) -> Option<Crossing> {
         }
     }
     None
+}
+
+/// The numbers of chords that may meet a chord which is not their neighbour: those within the
+/// box around the control points of another curve, and those of curves that may turn back.
+fn doubtful(loops: &[Vec<BezPath>], chords: &[Chord]) -> Vec<usize> {
+    let mut boxes: Vec<((usize, usize, usize), Rect, bool)> = Vec::new();
+    for (ring, pieces) in loops.iter().enumerate() {
+        for (piece, path) in pieces.iter().enumerate() {
+            for (segment, curve) in path.segments().enumerate() {
+                let (hull, onward) = hull(curve);
+                boxes.push(((ring, piece, segment), hull, onward));
+            }
+        }
+    }
+    if boxes.len() > MOST_BOXES {
+        return (0..chords.len()).collect();
+    }
+    let mut found = Vec::new();
+    for (number, chord) in chords.iter().enumerate() {
+        let own = (chord.ring, chord.piece, chord.segment);
+        let (a, b) = chord.ends;
+        let around = Rect::from_points((a[0], a[1]), (b[0], b[1])).inflate(TOUCH, TOUCH);
+        let meets = |&(of, hull, onward): &((usize, usize, usize), Rect, bool)| {
+            if of == own { !onward } else { hull.overlaps(around) }
+        };
+        if boxes.iter().any(meets) {
+            found.push(number);
+        }
+    }
+    found
+}
+
+/// The box around the control points of a curve, a little wider, and whether each of its steps
+/// leads onward along the line between its ends, so that it cannot meet itself.
+fn hull(curve: PathSeg) -> (Rect, bool) {
+    let points: Vec<kurbo::Point> = match curve {
+        PathSeg::Line(l) => vec![l.p0, l.p1],
+        PathSeg::Quad(q) => vec![q.p0, q.p1, q.p2],
+        PathSeg::Cubic(c) => vec![c.p0, c.p1, c.p2, c.p3],
+    };
+    let mut around = Rect::from_points(curve.start(), curve.end());
+    for point in &points {
+        around = around.union_pt(*point);
+    }
+    let whole = curve.end() - curve.start();
+    let steps = points.windows(2).map(|pair| pair[1] - pair[0]);
+    let onward = steps.map(|step| step.dot(whole)).all(|along| along > 0.0);
+    (around.inflate(2.0 * TOUCH, 2.0 * TOUCH), onward)
 }
 
 /// Whether the stretch after `before` lies on it in the opposite sense.
@@ -144,7 +214,8 @@ fn refine(loops: &[Vec<BezPath>], a: &Chord, b: &Chord, (s, t): (f64, f64)) -> C
             let (along, across) = (slope(p, exact.0), slope(q, exact.1));
             let gap = there - here;
             let cross = along.cross(across);
-            if cross.abs() < 1e-9 * along.hypot() * across.hypot() {
+            // A curve that stands still at its end has no slope there.
+            if cross.abs() <= 1e-9 * along.hypot() * across.hypot() {
                 break;
             }
             let step = (gap.cross(across) / cross, gap.cross(along) / cross);
@@ -184,6 +255,40 @@ fn arc_length(path: &BezPath, segment: usize, share: f64) -> f64 {
 mod tests {
     use super::*;
     use kurbo::Shape;
+
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Nothing that matters is left out.
+        #[test]
+        fn chords_far_from_other_curves_do_not_matter(
+            points in prop::collection::vec((-4i8..5, -4i8..5), 9..22),
+        ) {
+            let at = |n: usize| {
+                let (x, y) = points[n % points.len()];
+                kurbo::Point::new(f64::from(x), f64::from(y))
+            };
+            let count = points.len() / 3;
+            let outline: Vec<BezPath> = (0..count)
+                .map(|n| {
+                    let mut path = BezPath::new();
+                    path.move_to(at(3 * n));
+                    let end = if n + 1 == count { at(0) } else { at(3 * n + 3) };
+                    if n % 2 == 0 {
+                        path.line_to(end);
+                    } else {
+                        path.curve_to(at(3 * n + 1), at(3 * n + 2), end);
+                    }
+                    path
+                })
+                .collect();
+            let loops = [outline];
+            let (chords, ends) = chorded(&loops);
+            let all: Vec<usize> = (0..chords.len()).collect();
+            let whole = crossing_among(&loops, &chords, &ends, &all);
+            prop_assert_eq!(first_crossing(&loops), whole);
+        }
+    }
 
     fn pieces(corners: &[(f64, f64)]) -> Vec<BezPath> {
         let closed = corners.iter().zip(corners.iter().cycle().skip(1));
