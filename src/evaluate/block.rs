@@ -415,8 +415,9 @@ impl<'t> Evaluator<'t> {
                         let items = phrase.get(1..).unwrap_or(&[]);
                         let found = self.take(word, written(name, Some(key), items, &[]), out);
                         // Labels of edges, and of round holes, are names of edges.
-                        let round = found.first().is_some_and(|phrase| {
-                            phrase.word.name == "hole" && phrase.block.is_none()
+                        let round = found.first().is_some_and(|phrase| match phrase.word.name {
+                            "hole" => phrase.block.is_none() && !phrase.says("slit"),
+                            word => word == "smooth",
                         });
                         if kind != Kind::Outline && !round {
                             self.declare(outer, &key.text, key.span, inner, What::Label);

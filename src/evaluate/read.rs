@@ -157,6 +157,23 @@ impl<'t> Evaluator<'t> {
         Some([*parts.first()?, *parts.get(1)?, *parts.get(2)?])
     }
 
+    /// A particle of a grid: column and row, counted from the lower left corner.
+    pub fn particle(&mut self, arg: Arg<'t>) -> Option<[i32; 2]> {
+        let parts = self.vector_of(arg, Dimension::NUMBER, 2)?;
+        let mut node = [0; 2];
+        for (number, part) in node.iter_mut().zip(&parts) {
+            if part.fract() != 0.0 || part.abs() > 1e6 {
+                self.tell(
+                    Diagnostic::new("E0303", "particles are counted in whole numbers")
+                        .at(arg.expr.span, "column and row, such as `(3, 20)`"),
+                );
+                return None;
+            }
+            *number = *part as i32;
+        }
+        Some(node)
+    }
+
     fn vector_of(&mut self, arg: Arg<'t>, wanted: Dimension, count: usize) -> Option<Vec<f64>> {
         let value = self.eval(arg.expr, arg.scope);
         let (dimension, parts) = match value {

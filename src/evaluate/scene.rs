@@ -176,13 +176,14 @@ impl<'t> Evaluator<'t> {
             cell,
             layer: 0,
             inside: false,
+            counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
         })
     }
 
     /// `grid: 128 x 128` or `grid: 5mm`.
-    fn cells(&mut self, fields: &Fields<'t>, extent: [f64; 2]) -> Option<Option<f64>> {
+    pub(super) fn cells(&mut self, fields: &Fields<'t>, extent: [f64; 2]) -> Option<Option<f64>> {
         let Some(phrase) = fields.get("grid") else { return Some(None) };
         let first = phrase.arg(0)?;
         let Some(second) = phrase.arg(1) else {
@@ -285,6 +286,7 @@ impl<'t> Evaluator<'t> {
             cell: None,
             layer: 0,
             inside: false,
+            counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
         });

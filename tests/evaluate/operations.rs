@@ -185,3 +185,132 @@ fn folds_that_do_not_fit_are_told() {
         assert_eq!(told(&format!("{plain} {line}")), [code], "{line}");
     }
 }
+
+/// Area of a panel, cm², from the straight lines of its loops.
+fn area(panel: &Panel) -> f64 {
+    use kurbo::Shape;
+    let pieces = panel.loops.iter().flat_map(|ring| &ring.pieces);
+    let area: f64 = pieces.flat_map(|piece| piece.path.segments()).map(|s| s.area()).sum();
+    (area * 1e8).round() / 1e4
+}
+
+#[test]
+fn a_counted_grid_is_cut_along_particles() {
+    let grid = "size: 40cm x 60cm; grid: 20 x 30;";
+    // A trapezoid from the whole lower rim up to columns 4 to 16 of row 30: the left line climbs
+    // 30 rows over 4 columns.
+    let kept = garment(
+        &format!("{grid} cut along (0, 0), (20, 0), (16, 30), (4, 30) keep inside (10, 15)"),
+        "check p.cut1.length = 40cm within 1um; check p.cut3.length = 24cm within 1um",
+    );
+    assert_eq!(area(&kept.panels[0]), 1920.0);
+    assert_eq!(kept.panels[0].cell, Some(0.02));
+    // What was cut away by two cuts one after the other is the same.
+    let twice = garment(
+        &format!(
+            "{grid} cut along (0, 0), (4, 30), (0, 30) keep outside (10, 15)
+             right: cut along (20, 0), (20, 30), (16, 30) keep outside (10, 15)"
+        ),
+        "",
+    );
+    assert_eq!(area(&twice.panels[0]), 1920.0);
+    // The first rows of the line lie on the rim and cut nothing.
+    assert!(edge(&twice.panels[0], "right3") > 0.5);
+    assert!((edge(&twice.panels[0], "bottom") - 0.4).abs() < 1e-12);
+    let hole =
+        garment(&format!("{grid} cut along (5, 5), (15, 5), (10, 15) keep outside (1, 1)"), "");
+    assert_eq!(hole.panels[0].loops.len(), 2);
+    for (line, code) in [
+        ("cut along (5, 5), (15, 5), (10, 15) keep inside (1, 1)", "E0407"),
+        ("cut along (5, 5), (15, 5), (10, 15) keep inside (5, 5)", "E0407"),
+        ("cut along (5, 5), (15, 5) keep inside (7, 5)", "E0404"),
+        ("cut along (5, 5), (15, 5), (25, 15) keep inside (7, 6)", "E0303"),
+        ("cut along (5, 5), (15, 15), (15, 5), (5, 15) keep inside (6, 6)", "E0402"),
+        ("cut along (5, 5), (15, 5), (10, 15) keep (7, 6)", "E0203"),
+        ("cut along (5, 5), (15, 5), (10, 15.5) keep inside (7, 6)", "E0303"),
+        ("smooth (5, 5), (6, 6), (7, 7)", "E0204"),
+        ("smooth (0, 0), (20, 0)", "E0306"),
+        ("move (5, 5) by (1cm, 0)", "E0204"),
+    ] {
+        assert_eq!(told(&format!("{grid} {line}")), [code], "{line}");
+    }
+    assert_eq!(
+        told("size: 40cm x 60cm; cut along (0, 0), (1, 0), (0, 1) keep inside (1, 1)"),
+        ["E0208"]
+    );
+}
+
+#[test]
+fn a_mask_is_drawn_in_characters() {
+    let mask = |rows: &str| format!("size: 30cm x 20cm\n mask:\n{rows}\n");
+    let ring = garment(&mask("|######|\n|##..##|\n|##..##|\n|######|"), "");
+    // 20 of 24 cells of 5 cm.
+    assert_eq!((area(&ring.panels[0]), ring.panels[0].loops.len()), (500.0, 2));
+    assert_eq!(edge(&ring.panels[0], "rim"), 1.0);
+    assert_eq!(told(&mask("|###..#|\n|######|\n|######|\n|#...##|")), Vec::<String>::new());
+    assert_eq!(told(&mask("|######|\n|......|\n|######|\n|######|")), ["W0401"]);
+    assert_eq!(told(&mask("|##x###|\n|######|")), ["E0602"]);
+    assert_eq!(told(&mask("|######|\n|#####|\n|######|")), ["E0601"]);
+    assert_eq!(told(&mask("|......|\n|......|")), ["E0813"]);
+}
+
+#[test]
+fn particles_of_the_rim_are_smoothed_and_moved() {
+    let grid = "size: 40cm x 40cm; grid: 20 x 20;";
+    let moved = garment(&format!("{grid} move (0, 20), (20, 20) by (0, 5cm)"), "");
+    // Both upper corners alone: the rest of the upper rim stays.
+    assert_eq!(area(&moved.panels[0]), 1600.0 + 2.0 * 2.0 * 5.0 / 2.0);
+    let smoothed = garment(
+        &format!("{grid} move (10, 20) by (0, 4cm); bow: smooth (20, 20), (10, 20), (0, 20)"),
+        "",
+    );
+    // A curve through three points of a circle of radius (20² + 4²) / 8 = 52 cm, which Hobby's
+    // curve keeps to well within a millimetre: an arc of 2 · 52 · asin(20 / 52) cm.
+    let arc = 2.0 * 0.52 * (20.0f64 / 52.0).asin();
+    assert!((edge(&smoothed.panels[0], "bow") - arc).abs() < 2e-4, "{arc}");
+}
+
+#[test]
+fn drawings_are_mirrored_and_resized() {
+    let corner = |lines: &str| {
+        let made = garment(&format!("rectangle 20cm x 10cm; {lines}"), "");
+        let pieces = made.panels[0].loops[0].pieces.iter();
+        let points = pieces.flat_map(|piece| piece.path.elements().to_vec());
+        let points = points.filter_map(|element| element.end_point());
+        let (x, y) = points
+            .fold((f64::NEG_INFINITY, f64::NEG_INFINITY), |(x, y), p| (x.max(p.x), y.max(p.y)));
+        ((x * 1e5).round() / 1e3, (y * 1e5).round() / 1e3)
+    };
+    assert_eq!(corner("scale by 1.5"), (15.0, 15.0));
+    assert_eq!(corner("scale by 1.5 x 2"), (15.0, 20.0));
+    assert_eq!(corner("scale width 30cm"), (15.0, 10.0));
+    assert_eq!(corner("scale height 30cm"), (10.0, 30.0));
+    assert_eq!(corner("scale to 15cm on end"), (15.0, 15.0));
+    assert_eq!(corner("scale by 2 about (10cm, 0)"), (10.0, 20.0));
+    assert_eq!(corner("mirror about (15cm, 0)"), (40.0, 10.0));
+    assert_eq!(corner("mirror; rotate by 90deg"), (0.0, 10.0));
+    let plain = "rectangle 20cm x 10cm;";
+    assert_eq!(told(&format!("{plain} scale to 15cm")), ["E0208"]);
+    assert_eq!(told(&format!("{plain} scale by 0")), ["E0303"]);
+    assert_eq!(told(&format!("{plain} scale by 2 width 3cm")), ["E0209"]);
+}
+
+#[test]
+fn holes_are_round_long_or_slits() {
+    let cut = |hole: &str| garment(&format!("rectangle 40cm x 40cm; {hole}"), "").panels.remove(0);
+    let ellipse = cut("hole ellipse at (0, 20cm) radius 6cm x 3cm turn 30deg");
+    assert!((area(&ellipse) - (1600.0 - std::f64::consts::PI * 18.0)).abs() < 0.05);
+    let slit = cut("open: hole slit from (0, 10cm) to (0, 30cm)");
+    assert!((edge(&slit, "open1") - edge(&slit, "open2")).abs() < 1e-12);
+    assert!((edge(&slit, "open1") - 0.2).abs() < 1e-4);
+    let plain = "rectangle 40cm x 40cm;";
+    for (hole, code) in [
+        ("hole circle at (0, 20cm) radius 6cm x 3cm", "E0207"),
+        ("hole ellipse at (0, 20cm)", "E0208"),
+        ("hole slit from (0, 20cm)", "E0208"),
+        ("hole slit from (0, 20cm) to (0, 20cm)", "E0404"),
+        ("hole slit from (30cm, 20cm) to (30cm, 30cm)", "E0410"),
+    ] {
+        assert_eq!(told(&format!("{plain} {hole}")), [code], "{hole}");
+    }
+}

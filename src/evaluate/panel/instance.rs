@@ -9,6 +9,7 @@ use super::super::value::Value;
 use super::super::words::{Kind, vocabulary};
 use super::edge::{EdgeRef, Which};
 use super::operation::SHAPES;
+use super::particle;
 use super::{Draft, Instance, InstanceId};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Expr, ExprKind, Name, Statement, StatementKind};
@@ -23,6 +24,7 @@ pub(super) fn shape_edges(phrase: &Phrase<'_>) -> &'static [&'static str] {
         "circle" => &["rim"],
         "ring" if phrase.says("sweep") => &["inner", "end", "outer", "start"],
         "ring" => &["inner", "outer"],
+        "size" => &["bottom", "end", "top", "start"],
         _ => &[],
     }
 }
@@ -107,6 +109,26 @@ impl<'t> Evaluator<'t> {
                     }
                 }
                 "hole" => {
+                    if let Some(label) = phrase.label {
+                        let names = if phrase.says("slit") {
+                            vec![format!("{}1", label.text), format!("{}2", label.text)]
+                        } else {
+                            vec![label.text.clone()]
+                        };
+                        for name in names {
+                            self.declare(scope, &name, label.span, scope, What::Edge(instance));
+                        }
+                    }
+                }
+                "mask" => {
+                    self.declare(scope, "rim", phrase.key.span, scope, What::Edge(instance));
+                }
+                "cut" => {
+                    for name in particle::cut_edges(phrase) {
+                        self.declare(scope, &name, phrase.span, scope, What::Edge(instance));
+                    }
+                }
+                "smooth" => {
                     if let Some(label) = phrase.label {
                         self.declare(scope, &label.text, label.span, scope, What::Edge(instance));
                     }
@@ -248,8 +270,11 @@ impl<'t> Evaluator<'t> {
             }
             Some(draft) => {
                 self.tell(
-                    Diagnostic::new("E0304", format!("`{name}` is folded away"))
-                        .at(from, format!("`{}` is unfolded across it", draft.name)),
+                    Diagnostic::new(
+                        "E0304",
+                        format!("`{name}` is no edge of `{}` any more", draft.name),
+                    )
+                    .at(from, "it is unfolded across this edge, or has been cut away"),
                 );
                 Value::Poison
             }

@@ -8,9 +8,12 @@ mod instance;
 mod mouth;
 pub(super) mod operation;
 mod outline;
+mod particle;
 mod pleat;
+mod raster;
 pub(super) mod shape;
 pub(super) mod sheet;
+mod transform;
 
 use super::Evaluator;
 use super::fields::Fields;
@@ -68,6 +71,8 @@ pub struct Draft {
     pub layer: i32,
     /// Whether its face lies towards the wearer.
     pub inside: bool,
+    /// Its particles, where they are counted.
+    pub counted: Option<Counted>,
     /// Edges as drawn, before folds and darts.
     pub(super) drawn: Vec<Drawn>,
     /// The pieces that are cut: one, or one for each name of `pair`.
@@ -77,6 +82,29 @@ pub struct Draft {
 impl PartialEq for Draft {
     fn eq(&self, other: &Self) -> bool {
         self.item == other.item && self.pieces == other.pieces
+    }
+}
+
+/// The particles of a panel whose grid is said in cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Counted {
+    /// Particle (0, 0) in the drawing, m.
+    pub origin: [f64; 2],
+    /// Width and height of a cell, m.
+    pub cell: [f64; 2],
+    /// Number of cells.
+    pub count: [i32; 2],
+}
+
+impl Counted {
+    /// The place of a particle in the drawing, m.
+    pub fn place(&self, node: [i32; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.origin[axis] + f64::from(node[axis]) * self.cell[axis])
+    }
+
+    /// Whether there is such a particle in the whole grid.
+    pub fn has(&self, node: [i32; 2]) -> bool {
+        (0..2).all(|axis| (0..=self.count[axis]).contains(&node[axis]))
     }
 }
 

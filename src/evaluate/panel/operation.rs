@@ -5,16 +5,16 @@ use super::super::fields::{Arg, Phrase, bare};
 use super::super::item::ItemId;
 use super::super::words::Kind;
 use super::sheet::{self, Drawn, Edge, Leg, Sheet};
-use super::{CutEdge, CutJoin, CutPiece, Draft, Instance, InstanceId, Standing};
+use super::{Counted, CutEdge, CutJoin, CutPiece, Draft, Instance, InstanceId, Standing};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::panel::Crease;
 use crate::geometry::{crossing, curve};
 use crate::syntax::tree::Name;
 use crate::units::{self, Dimension};
-use kurbo::{Affine, BezPath, Point, Shape};
+use kurbo::{Affine, BezPath, Shape};
 
 /// Shapes of which a panel has one.
-pub(in super::super) const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring"];
+pub(in super::super) const SHAPES: &[&str] = &["outline", "rectangle", "circle", "ring", "size"];
 
 impl<'t> Evaluator<'t> {
     /// Draws and cuts the panel of an instance.
@@ -26,10 +26,6 @@ impl<'t> Evaluator<'t> {
         let span = self.item(item).span;
         let fabric = self.fabric_of(item, 0);
         let grain = self.quantity_or(&fields, "grain", Dimension::ANGLE, 0.0);
-        let cell = match fields.value("grid") {
-            Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-4, 1.0).map(Some),
-            None => Some(None),
-        };
         let layer = match fields.value("layer") {
             None => Some((0, false)),
             Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => {
@@ -60,10 +56,15 @@ impl<'t> Evaluator<'t> {
                 return None;
             }
         };
-        let Some(mut rings) = self.rings_of(shape, outline.as_ref(), &name) else {
+        let by_particles = match shape.word.name {
+            "size" => self.counted(&fields, shape, &name),
+            _ => self.rings_of(shape, outline.as_ref(), &name).map(|rings| (rings, None)),
+        };
+        let Some((mut rings, counted)) = by_particles else {
             self.look_over(&fields, shape, outline.as_ref());
             return None;
         };
+        let cell = self.side_of_cells(&fields, shape, counted);
         // A piece of which a line is not known says nothing to those that are sewn to it.
         let mut sound = fields.spoiled.is_empty();
         for (number, phrase) in fields.phrases.iter().enumerate() {
@@ -86,16 +87,15 @@ impl<'t> Evaluator<'t> {
         });
         sound &= self.notched(&fields, &rings, &mut sheet);
         sound &= self.creased(&fields, &rings, &mut sheet);
-        for phrase in fields.all("rotate") {
-            let angle = phrase.value("by").and_then(|arg| self.quantity(arg, Dimension::ANGLE));
-            let about = match phrase.value("about") {
-                Some(arg) => self.point(arg),
-                None => Some([0.0, 0.0]),
+        for phrase in &fields.phrases {
+            let map = match phrase.word.name {
+                "rotate" => self.rotation(phrase),
+                "mirror" => self.mirroring(phrase),
+                "scale" => self.scaling(phrase, &sheet),
+                _ => continue,
             };
-            match angle.zip(about) {
-                Some((angle, [x, y])) => {
-                    sheet = sheet.mapped(Affine::rotate_about(angle, Point::new(x, y)));
-                }
+            match map {
+                Some(map) => sheet = sheet.mapped(map),
                 None => sound = false,
             }
         }
@@ -117,9 +117,37 @@ impl<'t> Evaluator<'t> {
             cell,
             layer,
             inside,
+            counted,
             drawn,
             pieces,
         })
+    }
+
+    /// `grid: 5mm`, or `grid: 40 x 60` with a size: the side of the cells, m.
+    fn side_of_cells(
+        &mut self,
+        fields: &super::Fields<'t>,
+        shape: &Phrase<'t>,
+        counted: Option<Counted>,
+    ) -> Option<Option<f64>> {
+        let Some(phrase) = fields.get("grid") else {
+            return Some(counted.map(|counted| counted.cell[0].min(counted.cell[1])));
+        };
+        if phrase.arg(1).is_none() {
+            return self.within_range(phrase.arg(0)?, Dimension::LENGTH, 1e-4, 1.0).map(Some);
+        }
+        if shape.word.name != "size" || fields.get("mask").is_some() {
+            self.tell(
+                Diagnostic::new("E0207", "cells are counted on a panel with a `size`")
+                    .at(phrase.span, "this panel's grid has a side")
+                    .help("such as `grid: 8mm`"),
+            );
+            return None;
+        }
+        let [across, up] = [shape.arg(0)?, shape.arg(1)?];
+        let extent =
+            [self.quantity(across, Dimension::LENGTH)?, self.quantity(up, Dimension::LENGTH)?];
+        self.cells(fields, extent)
     }
 
     /// The outline of a panel from its shape.

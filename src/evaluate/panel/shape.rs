@@ -6,11 +6,14 @@ use super::sheet::{self, Drawn};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::curve;
 use crate::units::{self, Dimension};
-use kurbo::{BezPath, Point, Shape};
+use kurbo::{Affine, BezPath, Point, Shape};
 use std::f64::consts::{PI, TAU};
 
 /// A pattern piece may be so large, m.
 pub(super) const SIZE: f64 = 100.0;
+
+/// A slit gapes so wide in its middle, m.
+const SLIT: f64 = 1e-3;
 
 impl<'t> Evaluator<'t> {
     /// A rectangle, disc or ring as drawn edges.
@@ -98,13 +101,46 @@ impl<'t> Evaluator<'t> {
         inside
     }
 
+    /// `hole slit from P to P`: as narrow a hole as can be cut; its edges are its label and 1, 2.
+    fn slit(&mut self, phrase: &Phrase<'t>) -> Option<Vec<Drawn>> {
+        let (Some(from), Some(to)) = (phrase.value("from"), phrase.value("to")) else {
+            self.tell(
+                Diagnostic::new("E0208", "a slit wants its two ends")
+                    .at(phrase.span, "missing here")
+                    .help("`hole slit from P to P`"),
+            );
+            return None;
+        };
+        let (a, b) = (self.point(from), self.point(to));
+        let ([ax, ay], [bx, by]) = (a?, b?);
+        let (a, b) = (Point::new(ax, ay), Point::new(bx, by));
+        let along = b - a;
+        if along.hypot() < 2.0 * SLIT {
+            self.tell(Diagnostic::new("E0404", "this slit has no length").at(phrase.span, "here"));
+            return None;
+        }
+        let across = kurbo::Vec2::new(-along.y, along.x) * (0.5 * SLIT / along.hypot());
+        let middle = a.midpoint(b);
+        let edge = |number: usize, from: Point, to: Point| Drawn {
+            name: phrase.label.map(|label| format!("{}{number}", label.text)),
+            span: phrase.span,
+            path: curve::line(from, to),
+        };
+        Some(vec![
+            edge(1, a, middle + across),
+            edge(1, middle + across, b),
+            edge(2, b, middle - across),
+            edge(2, middle - across, a),
+        ])
+    }
+
     pub(super) fn hole(
         &mut self,
         phrase: &Phrase<'t>,
         read: Option<&super::Fields<'t>>,
         name: &str,
     ) -> Option<Vec<Drawn>> {
-        if phrase.says("circle") {
+        if phrase.says("circle") || phrase.says("ellipse") {
             let (Some(at), Some(radius)) = (phrase.value("at"), phrase.value("radius")) else {
                 self.tell(
                     Diagnostic::new("E0208", "a round hole wants `at POINT radius LENGTH`")
@@ -113,18 +149,42 @@ impl<'t> Evaluator<'t> {
                 return None;
             };
             let [x, y] = self.point(at)?;
-            let radius = self.within_range(radius, Dimension::LENGTH, 1e-4, SIZE)?;
-            let from = Point::new(x, y - radius);
-            let mut path = curve::arc(from, Point::new(x, y), TAU);
+            let across = self.within_range(radius, Dimension::LENGTH, 1e-4, SIZE)?;
+            let up = match phrase.values("radius").get(1) {
+                Some(up) if phrase.says("ellipse") => {
+                    self.within_range(*up, Dimension::LENGTH, 1e-4, SIZE)?
+                }
+                Some(up) => {
+                    self.tell(
+                        Diagnostic::new("E0207", "a circle has one radius")
+                            .at(up.expr.span, "remove this, or write `ellipse`"),
+                    );
+                    return None;
+                }
+                None => across,
+            };
+            let turn = match phrase.value("turn") {
+                Some(turn) => self.quantity(turn, Dimension::ANGLE)?,
+                None => 0.0,
+            };
+            let unit = curve::arc(Point::new(0.0, -1.0), Point::ZERO, TAU);
+            let map = Affine::translate((x, y))
+                * Affine::rotate(turn)
+                * Affine::scale_non_uniform(across, up);
+            let mut path = curve::mapped(&unit, map);
+            let from = curve::start(&path);
             curve::end_at(&mut path, from);
             let name = phrase.label.map(|label| label.text.clone());
             return Some(vec![Drawn { name, span: phrase.span, path }]);
+        }
+        if phrase.says("slit") {
+            return self.slit(phrase);
         }
         let (Some(from), Some(read)) = (phrase.value("from"), read) else {
             self.tell(
                 Diagnostic::new("E0208", "a hole wants its edges")
                     .at(phrase.span, "here")
-                    .help("`hole from P { edges }` or `hole circle at P radius L`"),
+                    .help("`hole from P { edges }`, `hole circle at P radius L`, `hole ellipse at P radius L x L` or `hole slit from P to P`"),
             );
             return None;
         };

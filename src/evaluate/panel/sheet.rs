@@ -91,6 +91,7 @@ impl Sheet {
     pub fn add_ring(&mut self, drawn: &[Drawn], cuts: &[Vec<Cut>]) {
         let ring = self.rings.len();
         let mut pieces: Vec<BezPath> = Vec::new();
+        let mut edges: Vec<Edge> = Vec::new();
         for (place, edge) in drawn.iter().enumerate() {
             let none = Vec::new();
             let length = curve::length(&edge.path);
@@ -109,7 +110,7 @@ impl Sheet {
                 mouth::part(&edge.path, cuts, ring, &mut pieces, &mut self.joins)
             };
             if let Some(name) = &edge.name {
-                self.edges.push(Edge {
+                edges.push(Edge {
                     name: name.clone(),
                     half: None,
                     span: edge.span,
@@ -118,6 +119,7 @@ impl Sheet {
                 });
             }
         }
+        self.edges.extend(run_on(edges));
         join(&mut pieces);
         self.rings.push(pieces);
     }
@@ -297,6 +299,35 @@ impl Sheet {
             })
             .collect()
     }
+}
+
+/// Edges of one ring, of which those that follow each other under one name are one.
+fn run_on(list: Vec<Edge>) -> Vec<Edge> {
+    let mut edges: Vec<Edge> = Vec::new();
+    for edge in list {
+        match edges.last_mut().filter(|before| before.name == edge.name) {
+            Some(before) => append(before, edge),
+            None => edges.push(edge),
+        }
+    }
+    // The ring may have begun within an edge.
+    if let [first, .., last] = edges.as_slice()
+        && first.name == last.name
+    {
+        let first = edges.remove(0);
+        if let Some(last) = edges.last_mut() {
+            append(last, first);
+        }
+    }
+    edges
+}
+
+fn append(before: &mut Edge, edge: Edge) {
+    let way = before.flat;
+    let moved =
+        edge.stretches.into_iter().map(|s| Stretch { flat: (s.flat.0 + way, s.flat.1 + way), ..s });
+    before.stretches.extend(moved);
+    before.flat += edge.flat;
 }
 
 /// Makes each piece begin exactly where the one before it ends.

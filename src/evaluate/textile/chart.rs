@@ -132,6 +132,15 @@ pub(super) fn cells<T: Copy>(
     good.then(|| rows.into_iter().rev().map(|(cells, _)| cells).collect())
 }
 
+/// The cells of a mask, bottom row first: true for cloth.
+pub(in super::super) fn mask(
+    ev: &mut Evaluator<'_>,
+    phrase: &Phrase<'_>,
+) -> Option<Vec<Vec<bool>>> {
+    let keys = Keys::new(&[("#", true), (".", false)]);
+    cells(ev, phrase, &keys, "`#` is cloth, `.` is none")
+}
+
 /// The length that most rows have, and a row that has it.
 fn common_width<T>(rows: &[(Vec<T>, &Row)]) -> Option<(usize, Span)> {
     let of = |width: usize| rows.iter().filter(|(cells, _)| cells.len() == width).count();

@@ -9,6 +9,7 @@ mod sheet;
 mod weave;
 mod yarn;
 
+pub(super) use chart::mask;
 pub(super) use fabric::fabric;
 pub(super) use knit::knit;
 pub(super) use motif::motif;

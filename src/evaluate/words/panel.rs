@@ -46,9 +46,9 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             opening(
                 "hole",
-                "[ from POINT | circle ] [ at POINT ] [ radius LENGTH ]",
+                "[ circle | ellipse | slit ] [ from POINT ] [ to POINT ] [ at POINT ] [ turn ANGLE ] [ radius LENGTH [ x LENGTH ] ]",
                 Kind::Outline,
-                "a closed inner outline: `hole from P { edges }` or `hole circle at P radius L`",
+                "a closed inner outline: `hole from P { edges }`, `hole circle at P radius L`, `hole ellipse at P radius L x L`, `hole slit from P to P`",
             ),
             action("notch", "on EDGE at POSITION [ from EDGE ]", "a match mark"),
             action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
@@ -59,6 +59,31 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action("rotate", "by ANGLE [ about POINT ]", "turns the drawing"),
             action(
+                "mirror",
+                "[ about POINT ]",
+                "exchanges left and right of the drawing, about x = 0 or the upright line through a point",
+            ),
+            action(
+                "scale",
+                "[ about POINT ] [ on EDGE ] ( width LENGTH | height LENGTH | to LENGTH | by RATIO [ x RATIO ] )",
+                "resizes the drawing: `by 1.1`, `by 1.1 x 1`, to a width or a height, or `to 36cm on waist`",
+            ),
+            action(
+                "cut",
+                "along PARTICLE,… keep inside|outside PARTICLE",
+                "on a counted grid: cuts along the closed line through particles and keeps the side on which one lies; edges cut1, cut2, … or by its label",
+            ),
+            action(
+                "smooth",
+                "PARTICLE,…",
+                "on a counted grid: the cut line from the first to the last particle becomes a Bézier curve through them",
+            ),
+            action(
+                "move",
+                "PARTICLE,… by POINT",
+                "on a counted grid: shifts particles of the cut line",
+            ),
+            action(
                 "fit",
                 "NAME in RANGE until VALUE = VALUE",
                 "finds the value of a name that makes two lengths equal",
@@ -66,7 +91,17 @@ pub(super) const TABLES: &[Vocabulary] = &[
             REQUIRE,
             property("fabric", "FABRIC", "its fabric"),
             property("grain", "ANGLE", "turns the cloth under the drawing =0deg: warp along +y"),
-            property("grid", "LENGTH", "side of the grid cells"),
+            property(
+                "size",
+                "LENGTH x LENGTH",
+                "a rectangle, width x height, x = 0 in its middle; with `grid: 40 x 60` or a mask its particles are counted",
+            ),
+            property("mask", "", "the cells that are cloth, `#`, and those that are not, `.`"),
+            property(
+                "grid",
+                "CELLS [ x CELLS ]",
+                "side of the grid cells, or with a size their number across and up",
+            ),
             property(
                 "layer",
                 "LAYER",
