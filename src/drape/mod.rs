@@ -13,6 +13,7 @@ pub mod ladder;
 pub mod layers;
 pub mod matrix;
 pub mod membrane;
+pub mod nearby;
 pub mod place;
 pub mod precondition;
 pub mod proximity;
@@ -91,6 +92,13 @@ pub fn drape(
     let place = |compiled: &Compiled| -> Vec<Vector3<f64>> {
         place::place(compiled, &surfaces[..bodies]).iter().map(|p| p.coords).collect()
     };
+    let near: Vec<Compiled>;
+    let rungs = if rungs.iter().any(|compiled| !compiled.nearby.is_empty()) {
+        near = rungs.iter().map(|compiled| nearby::sewn(compiled, &place(compiled))).collect();
+        &near[..]
+    } else {
+        rungs
+    };
     // Among the threads from the start: to be called to them for every small piece of work costs more
     // than the work.
     let (positions, stats) =
@@ -123,18 +131,20 @@ pub fn dress(
     let mut steps = 0;
     let mut reason: Option<String> = None;
     let mut last = Course { reached: true, ..Course::default() };
-    let mut carried: Option<(Vec<Vector3<f64>>, bool)> = None;
+    let mut carried: Option<(Vec<Vector3<f64>>, bool, bool)> = None;
     let mut result = Vec::new();
     let mut asked_rest = false;
     let mut held = true;
     for (rung, compiled) in rungs.iter().enumerate() {
         let fine = rung + 1 == rungs.len();
-        let (start, sewn) = match carried.take() {
-            Some((places, sewn)) => (places, sewn),
-            None => (place(compiled), false),
+        let (start, sewn, mut shut) = match carried.take() {
+            Some(carried) => carried,
+            None => (place(compiled), false, false),
         };
         let seams = || compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
-        let weld = Weld::new(compiled.particles.len(), seams().filter(|_| sewn));
+        let closures = || compiled.closures.iter().flat_map(|s| s.pairs.iter().copied());
+        let held_together = seams().filter(|_| sewn).chain(closures().filter(|_| shut));
+        let weld = Weld::new(compiled.particles.len(), held_together);
         let mut shop = Workshop::new(compiled, surfaces, skin, weld, &start);
         let mut fresh = rung == 0;
         let mut sewn = sewn;
@@ -147,7 +157,7 @@ pub fn dress(
                         continue;
                     }
                     progress.stage("sew");
-                    let course = schedule::sew(&mut shop, gap.max(1e-5), progress);
+                    let course = schedule::sew(&mut shop, gap.max(1e-5), true, progress);
                     if course.is_ok_and(|c| !c.reached) {
                         let (gap, seam) = shop.sewing.gap(&shop.x);
                         let name = compiled.seams.get(seam).map_or("", |s| s.name.as_str());
@@ -165,6 +175,34 @@ pub fn dress(
                         pressed.map(|p| Course { steps: course.steps + p.steps, ..course })
                     });
                     ("sew", course)
+                }
+                Phase::Close { gap, .. } => {
+                    if shut || compiled.closures.is_empty() {
+                        continue;
+                    }
+                    progress.stage("close");
+                    // Two layers that are kept apart never come to one button.
+                    let places = shop.positions();
+                    let weld = Weld::new(compiled.particles.len(), seams().filter(|_| sewn));
+                    let mut open = compiled.clone();
+                    open.seams.append(&mut open.closures);
+                    shop = Workshop::new(&open, surfaces, skin, weld, &places);
+                    let course = schedule::sew(&mut shop, gap.max(1e-5), false, progress);
+                    if course.is_ok_and(|c| !c.reached) {
+                        let (gap, _) = shop.sewing.gap(&shop.x);
+                        reason.get_or_insert(format!(
+                            "the buttons did not close: {:.1} mm are left",
+                            gap * 1e3
+                        ));
+                    }
+                    let places = shop.positions();
+                    let weld = Weld::new(
+                        compiled.particles.len(),
+                        seams().filter(|_| sewn).chain(closures()),
+                    );
+                    shop = Workshop::new(compiled, surfaces, skin, weld, &places);
+                    shut = true;
+                    ("close", course)
                 }
                 Phase::Settle { speed, within, .. } => {
                     progress.stage("settle");
@@ -221,7 +259,7 @@ pub fn dress(
         }
         let places = shop.positions();
         if let Some(next) = rungs.get(rung + 1) {
-            carried = Some((ladder::carry(compiled, &places, next), sewn));
+            carried = Some((ladder::carry(compiled, &places, next), sewn, shut));
         } else {
             result = places;
         }

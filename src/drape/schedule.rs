@@ -32,13 +32,15 @@ const FREE: f64 = 0.8;
 /// Time over which a speed is measured, s.
 const WINDOW: f64 = 0.25;
 
-/// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m.
+/// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m. With
+/// `layers` the cloth is kept apart meanwhile.
 ///
 /// # Errors
 /// [`Stuck`] from the step.
 pub fn sew(
     shop: &mut Workshop<'_>,
     gap: f64,
+    layers: bool,
     progress: &mut dyn Progress,
 ) -> Result<Course, Stuck> {
     let mut course = Course::default();
@@ -75,7 +77,7 @@ pub fn sew(
             grip: 0.05,
             sewing: strength,
             near: 0.008,
-            layers: true,
+            layers,
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
         add(&mut course, taken);

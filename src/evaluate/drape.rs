@@ -11,6 +11,9 @@ use crate::units::Dimension;
 
 /// Seams are welded when no pair is further apart, m, where nothing else is said.
 const GAP: f64 = 1e-3;
+/// Buttons are held when no pair is further apart, m: two layers of cloth lie between, which are
+/// kept apart.
+const CLOSED: f64 = 5e-3;
 /// At rest when nothing moves faster, m/s, where nothing else is said.
 const SPEED: f64 = 2e-3;
 /// Longest time to come to rest, s, where nothing else is said.
@@ -42,6 +45,15 @@ impl<'t> Evaluator<'t> {
                         .value("until")
                         .and_then(|arg| self.below(arg, "gap", Dimension::LENGTH))
                         .map(|gap| Phase::Sew { gap, span }),
+                    "close" => {
+                        if phases.iter().any(|phase| matches!(phase, Phase::Close { .. })) {
+                            self.tell(
+                                Diagnostic::new("E0209", "`close` is said twice")
+                                    .at(line.span, "everything is closed already"),
+                            );
+                        }
+                        Some(Phase::Close { gap: CLOSED, span })
+                    }
                     "settle" => {
                         let speed = line
                             .value("until")
@@ -81,8 +93,13 @@ impl<'t> Evaluator<'t> {
             }
         }
         if phases.is_empty() {
-            if !making.garment.seams.is_empty() {
+            let sewn = making.garment.stitches.iter().any(|stitch| !stitch.closure);
+            let near = !making.garment.nearby.is_empty();
+            if !making.garment.seams.is_empty() || sewn || near {
                 phases.push(Phase::Sew { gap: GAP, span: None });
+            }
+            if making.garment.stitches.iter().any(|stitch| stitch.closure) {
+                phases.push(Phase::Close { gap: CLOSED, span: None });
             }
             phases.push(Phase::Settle { speed: SPEED, within: WITHIN, span: None });
         }

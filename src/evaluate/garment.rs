@@ -8,15 +8,19 @@ use super::words::Kind;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::Garment;
 use crate::garment::cloth::Surface;
-use crate::garment::panel::{NamedEdge, Panel, Run};
+use crate::garment::panel::{Corner, NamedEdge, Panel, Run};
 use crate::garment::scene::{Phase, Placement};
 use crate::garment::seam::{PanelRun, Seam};
+use crate::textile::fabric::Fabric;
 use crate::units::Dimension;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Panels one garment may have.
 const PANELS: usize = 2_000;
+
+/// Seam allowance where nothing else is said, m.
+const ALLOWANCE: f64 = 0.01;
 
 /// A garment while it is put together.
 pub(super) struct Making {
@@ -32,6 +36,8 @@ pub(super) struct Making {
     pub first_cloth: Option<ItemId>,
     /// Whether a fabric was named that is none, which has been told.
     pub clothless: bool,
+    /// Seam allowance of panels that say none, m.
+    pub allowance: f64,
     fabrics: BTreeMap<ItemId, usize>,
     /// Whether a part of it is wrong, which has been told. It is looked at all the same, so that
     /// its other mistakes are told too, but not given out.
@@ -47,6 +53,8 @@ impl Making {
                 fabrics: Vec::new(),
                 panels: Vec::new(),
                 seams: Vec::new(),
+                stitches: Vec::new(),
+                nearby: Vec::new(),
                 bodies: Vec::new(),
                 solids: Vec::new(),
                 attachments: Vec::new(),
@@ -61,10 +69,33 @@ impl Making {
             cloth: None,
             first_cloth: None,
             clothless: false,
+            allowance: ALLOWANCE,
             fabrics: BTreeMap::new(),
             broken: false,
         }
     }
+}
+
+/// The fabric of that number in several plies, as a fabric of its own: everything adds up, and the
+/// plies slide on each other when they are bent.
+fn plied(number: usize, plies: u32, making: &mut Making) -> usize {
+    let fabrics = &mut making.garment.fabrics;
+    let Some(single) = fabrics.get(number).filter(|_| plies > 1).cloned() else { return number };
+    let name = format!("{} x {plies}", single.name);
+    if let Some(known) = fabrics.iter().position(|fabric| fabric.name == name) {
+        return known;
+    }
+    let count = f64::from(plies);
+    fabrics.push(Fabric {
+        name,
+        mass: single.mass * count,
+        thickness: single.thickness * count,
+        bending: single.bending.map(|b| b * count),
+        tensile: single.tensile.map(|k| k * count),
+        shear: single.shear * count,
+        ..single
+    });
+    fabrics.len() - 1
 }
 
 impl<'t> Evaluator<'t> {
@@ -122,6 +153,12 @@ impl<'t> Evaluator<'t> {
             making.cloth = self.item_named(arg, Kind::Fabric);
             making.clothless = making.cloth.is_none();
             making.broken |= making.clothless;
+        }
+        if let Some(arg) = fields.value("allowance") {
+            match self.within_range(arg, Dimension::LENGTH, 0.0, 0.5) {
+                Some(allowance) => making.allowance = allowance,
+                None => making.broken = true,
+            }
         }
         making.garment.grade = self.grade(&fields);
         making.broken |= !self.take_parts(&mut fields);
@@ -239,9 +276,17 @@ impl<'t> Evaluator<'t> {
         }
         // A piece without its fabric is still sewn, to see whether its seams are right.
         making.first_cloth = making.first_cloth.or(fabric);
-        let fabric = fabric.and_then(|fabric| self.fabric_number(fabric, span, making));
+        let fabric = fabric
+            .and_then(|fabric| self.fabric_number(fabric, span, making))
+            .map(|number| plied(number, draft.plies, making));
         making.broken |= fabric.is_none();
         let fabric = fabric.unwrap_or_default();
+        let plain = making.allowance;
+        let allowance = |edge: &str| -> (f64, Corner) {
+            let fits = |name: &Option<String>| name.as_ref().is_none_or(|name| name == edge);
+            let said = draft.allowances.iter().rev().find(|(name, ..)| fits(name));
+            said.map_or((plain, Corner::default()), |(_, width, corner)| (*width, *corner))
+        };
         for (number, piece) in draft.pieces.iter().enumerate() {
             if making.garment.panels.len() >= PANELS {
                 self.tell(
@@ -260,6 +305,8 @@ impl<'t> Evaluator<'t> {
                         None => edge.name.clone(),
                     },
                     span: edge.span,
+                    allowance: allowance(&edge.name).0,
+                    corner: allowance(&edge.name).1,
                     runs: edge.runs.iter().map(|(run, _)| *run).collect(),
                 })
                 .collect();
@@ -273,6 +320,7 @@ impl<'t> Evaluator<'t> {
                 layer: draft.layer,
                 loops: piece.loops.clone(),
                 edges,
+                allowance: allowance("").0,
                 creases: piece.creases.clone(),
                 notches: piece.notches.clone(),
                 surface: Surface::Fabric,
@@ -367,6 +415,15 @@ impl<'t> Evaluator<'t> {
             garment.panels.iter().map(|panel| panel.placement != Placement::Led).collect();
         loop {
             let mut moved = false;
+            for stitch in &garment.stitches {
+                for [a, b] in &stitch.pairs {
+                    for (from, to) in [(a.0, b.0), (b.0, a.0)] {
+                        if reached[from] && !std::mem::replace(&mut reached[to], true) {
+                            moved = true;
+                        }
+                    }
+                }
+            }
             for seam in &garment.seams {
                 let any = seam
                     .a
@@ -420,8 +477,13 @@ impl<'t> Evaluator<'t> {
                 }
             }
         }
-        let phrases: Vec<Phrase<'t>> = fields.all("seam").cloned().collect();
-        let sewn = self.sew(&phrases, making);
+        let (by_points, phrases): (Vec<Phrase<'t>>, Vec<Phrase<'t>>) =
+            fields.all("seam").cloned().partition(|p| p.says("points") || p.says("near"));
+        let mut sewn = self.sew(&phrases, making);
+        for phrase in by_points.iter().chain(fields.all("button")).chain(fields.all("hook")) {
+            self.within = Some((phrase.scope, self.waiting.len()));
+            sewn &= self.stitch(phrase, making).is_some();
+        }
         self.within = None;
         sewn
     }

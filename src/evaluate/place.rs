@@ -206,7 +206,7 @@ impl<'t> Evaluator<'t> {
     }
 
     /// The panels named where a piece is placed, each with the edge that comes to the place.
-    fn placed_pieces(
+    pub(super) fn placed_pieces(
         &mut self,
         arg: Arg<'t>,
     ) -> Option<Vec<(ItemId, Vec<usize>, Option<EdgeRef>)>> {

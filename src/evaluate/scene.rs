@@ -12,7 +12,7 @@ use super::words::Kind;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::Garment;
 use crate::garment::cloth::Surface;
-use crate::garment::panel::{NamedEdge, Panel};
+use crate::garment::panel::{Corner, NamedEdge, Panel};
 use crate::garment::scene::{Placement, Shape, Solid};
 use crate::geometry::curve;
 use crate::units::{self, Dimension};
@@ -176,6 +176,8 @@ impl<'t> Evaluator<'t> {
             cell,
             layer: 0,
             inside: false,
+            plies: 1,
+            allowances: Vec::new(),
             counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
@@ -286,6 +288,8 @@ impl<'t> Evaluator<'t> {
             cell: None,
             layer: 0,
             inside: false,
+            plies: 1,
+            allowances: Vec::new(),
             counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
@@ -354,9 +358,12 @@ fn panel(
             .map(|edge| NamedEdge {
                 name: edge.name.clone(),
                 span: edge.span,
+                allowance: 0.0,
+                corner: Corner::default(),
                 runs: edge.runs.iter().map(|(run, _)| *run).collect(),
             })
             .collect(),
+        allowance: 0.0,
         creases: piece.creases.clone(),
         notches: piece.notches.clone(),
         surface,

@@ -12,6 +12,7 @@
 use super::Evaluator;
 use super::fields::{Arg, Phrase, bare};
 use super::garment::Making;
+use super::notch;
 use super::panel::edge::EdgeRef;
 use super::row::{Corner, Corners, Element, Line, length, rise, same, share};
 use super::value::Value;
@@ -49,6 +50,22 @@ impl<'t> Evaluator<'t> {
         let mut sound = true;
         for phrase in phrases {
             self.within = Some((phrase.scope, self.waiting.len()));
+            if phrase.head.is_empty() {
+                self.tell(
+                    Diagnostic::new("E0208", "`seam` wants edges")
+                        .at(phrase.span, "missing here")
+                        .help(phrase.word.usage()),
+                );
+                sound = false;
+                continue;
+            }
+            if let Some(within) = phrase.clause("within") {
+                self.tell(
+                    Diagnostic::new("E0207", "`within` goes with `near`").at(within.span, "here"),
+                );
+                sound = false;
+                continue;
+            }
             let lines: Option<Vec<Line>> =
                 phrase.args().into_iter().map(|arg| self.line_of(arg, making)).collect();
             match lines {
@@ -199,6 +216,10 @@ impl<'t> Evaluator<'t> {
         };
         let name = format!("{} -> {}", names(&seam.a), names(&seam.b));
         let parts = self.opened_parts(&seam, a_left)?;
+        let notches = match seam.phrase.value("notches") {
+            Some(arg) => Some(self.whole_number(arg, 0, 50)? as u32),
+            None => None,
+        };
         for (from, to, kind) in parts {
             let (a, b) = (share(&a, from, to), share(&b, from, to));
             if a.is_empty() || b.is_empty() {
@@ -208,13 +229,9 @@ impl<'t> Evaluator<'t> {
                 sewn.extend(a.iter().map(|run| (*run, seam.spans.0)));
             }
             sewn.extend(b.iter().map(|run| (*run, seam.spans.1)));
-            making.garment.seams.push(Seam {
-                name: name.clone(),
-                span: seam.phrase.span,
-                kind,
-                a,
-                b,
-            });
+            let made = Seam { name: name.clone(), span: seam.phrase.span, kind, a, b };
+            notch::mark_seam(&made, notches, making);
+            making.garment.seams.push(made);
         }
         Some(())
     }

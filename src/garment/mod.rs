@@ -27,6 +27,10 @@ pub struct Garment {
     pub panels: Vec<panel::Panel>,
     /// What is sewn to what, darts included, in the order of sewing.
     pub seams: Vec<seam::Seam>,
+    /// Points sewn to points, and buttons.
+    pub stitches: Vec<seam::Stitches>,
+    /// Rims sewn where they lie near each other.
+    pub nearby: Vec<seam::Nearby>,
     /// Wearers.
     pub bodies: Vec<scene::BodyRequest>,
     /// Balls, tables and the like.

@@ -27,6 +27,8 @@ pub struct Panel {
     pub loops: Vec<Loop>,
     /// Edges by name. Names of copies carry their half: `left.side`.
     pub edges: Vec<NamedEdge>,
+    /// Seam allowance of edges without a name, m.
+    pub allowance: f64,
     /// Lines along which it is folded.
     pub creases: Vec<Crease>,
     /// Match marks on the outline, for the cutter.
@@ -61,9 +63,26 @@ pub struct NamedEdge {
     pub name: String,
     /// Where it is declared.
     pub span: Span,
+    /// Cloth left beyond it, m.
+    pub allowance: f64,
+    /// How the allowance is cut at its ends.
+    pub corner: Corner,
     /// The pieces it runs along. Where a dart is cut out of it, the runs do not touch on the
     /// flat; sewn they do.
     pub runs: Vec<Run>,
+}
+
+/// How seam allowances meet in a corner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Corner {
+    /// Both go on to their meeting point.
+    #[default]
+    Mitre,
+    /// Square to the end of the edge.
+    Square,
+    /// An arc about the corner.
+    Round,
 }
 
 /// A part of one piece, walked from `from` to `to`; `from > to` goes against the loop.
@@ -107,4 +126,6 @@ pub struct Notch {
     pub at: [f64; 2],
     /// Unit vector into the cloth.
     pub inward: [f64; 2],
+    /// How many cuts side by side: 1, or 2 on seams that only back pieces have.
+    pub count: u8,
 }

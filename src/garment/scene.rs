@@ -135,6 +135,13 @@ pub enum Phase {
         /// Where it is said.
         span: Option<Span>,
     },
+    /// Draw buttons and hooks together, then hold them.
+    Close {
+        /// Held when no pair is further apart than this, m.
+        gap: f64,
+        /// Where it is said.
+        span: Option<Span>,
+    },
     /// Let it come to rest.
     Settle {
         /// At rest when nothing moves faster, m/s.

@@ -98,3 +98,30 @@ pub enum PinTarget {
         name: String,
     },
 }
+
+/// Point sewn to point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stitches {
+    /// As written, `front(3, 4) -> back(0, 4)`, `front.left.edge over front.right.edge`.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Whether it is a button or hook, closed by `close`, and not sewn.
+    pub closure: bool,
+    /// What is sewn to what: panel and place in its drawing, m. The particle nearest to it is meant.
+    pub pairs: Vec<[(usize, [f64; 2]); 2]>,
+}
+
+/// Particles of two rims to be sewn where they lie near each other when the drape begins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Nearby {
+    /// As written.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Panels with the number of the edge that is meant, or their whole rim; one side and the
+    /// other.
+    pub sides: [Vec<(usize, Option<usize>)>; 2],
+    /// How far apart two particles may lie to be sewn, m.
+    pub within: f64,
+}

@@ -142,7 +142,8 @@ mod tests {
         assert_eq!(at_end("dart on waist at 50% width"), "dart|width|LENGTH|false");
         assert_eq!(at_end("dart on waist at 50% width (a + "), "dart|width|LENGTH|true");
         assert_eq!(at_end("shaping: dart on waist at 3cm +"), "dart|at|PLACE|true");
-        assert_eq!(at_end("grid:"), "grid||LENGTH|false");
+        assert_eq!(at_end("allowance:"), "allowance||LENGTH|false");
+        assert_eq!(at_end("grid:"), "grid||CELLS|false");
         assert_eq!(at_end("rectangle 3cm"), "rectangle||x|false");
         assert_eq!(at_end("rectangle 3cm x"), "rectangle||LENGTH|false");
         assert_eq!(at_end("unfold across e as left,"), "unfold|as|NAME, …|false");

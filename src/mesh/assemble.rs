@@ -133,7 +133,7 @@ pub fn assemble(
 }
 
 /// The particle of a panel nearest to a place of its drawing.
-fn nearest(garment: &Garment, compiled: &Compiled, panel: usize, at: Place) -> Option<u32> {
+pub fn nearest(garment: &Garment, compiled: &Compiled, panel: usize, at: Place) -> Option<u32> {
     let place = Grain::new(garment.panels.get(panel)?.grain).to_cloth(at);
     let range = compiled.panels.get(panel)?.particles.range();
     range

@@ -24,6 +24,10 @@ pub struct Compiled {
     pub triangles: Vec<[u32; 3]>,
     /// Seams, in the order of sewing.
     pub seams: Vec<MeshSeam>,
+    /// Buttons and hooks, closed after the seams.
+    pub closures: Vec<MeshSeam>,
+    /// Rims sewn where they lie near each other when the drape begins.
+    pub nearby: Vec<MeshNearby>,
     /// Sides of cells and triangles along which the cloth is folded.
     pub creases: Vec<MeshCrease>,
     /// Edges held to a body.
@@ -107,6 +111,17 @@ pub struct MeshSeam {
     pub name: String,
     /// Pairs to be sewn; the two of a pair may be the same particle (the tip of a dart).
     pub pairs: Vec<[u32; 2]>,
+}
+
+/// Two rims of which particles are sewn that lie near each other when the drape begins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshNearby {
+    /// As in the text.
+    pub name: String,
+    /// The particles of both.
+    pub sides: [Vec<u32>; 2],
+    /// How far apart two of them may lie, m.
+    pub within: f64,
 }
 
 /// A side of two cells or triangles of a panel at which the cloth rests folded.

@@ -53,7 +53,11 @@ pub fn write(compiled: &Compiled, mut out: impl Write) -> io::Result<()> {
         list(out, &seam.pairs, |text, pair| whole(text, pair))?;
         write!(out, "]}}")?;
     }
-    write!(out, "],\n\"creases\":")?;
+    write!(out, "],\n\"closures\":")?;
+    value(out, &compiled.closures)?;
+    write!(out, ",\n\"nearby\":")?;
+    value(out, &compiled.nearby)?;
+    write!(out, ",\n\"creases\":")?;
     value(out, &compiled.creases)?;
     write!(out, ",\n\"attachments\":")?;
     value(out, &compiled.attachments)?;

@@ -23,6 +23,7 @@ pub mod panel;
 pub mod plan;
 pub mod sharpness;
 pub mod spacing;
+pub mod stitch;
 pub mod triangulation;
 pub mod validate;
 
@@ -87,6 +88,7 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     let plan = Plan::new(garment, &outlines, &cells)?;
     let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
     let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
+    stitch::stitches(garment, &mut compiled)?;
     compiled.creases = crease::creases(garment, &compiled);
     if options.atlas {
         atlas::draw(garment, &mut compiled);

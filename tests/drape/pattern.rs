@@ -81,6 +81,8 @@ pub fn outline(name: &str, pieces: Vec<BezPath>, names: &[&str], placement: Plac
         .map(|(k, name)| NamedEdge {
             name: (*name).to_owned(),
             span: Span::default(),
+            allowance: 0.01,
+            corner: Default::default(),
             runs: vec![Run { ring: 0, piece: k, from: 0.0, to: pieces[k].length }],
         })
         .collect();
@@ -93,6 +95,7 @@ pub fn outline(name: &str, pieces: Vec<BezPath>, names: &[&str], placement: Plac
         layer: 0,
         loops: vec![Loop { pieces }],
         edges,
+        allowance: 0.01,
         creases: Vec::new(),
         notches: Vec::new(),
         surface: Surface::Fabric,
@@ -158,6 +161,8 @@ pub fn garment(
         fabrics: vec![cotton()],
         panels,
         seams,
+        stitches: Vec::new(),
+        nearby: Vec::new(),
         bodies: vec![lady()],
         solids: Vec::new(),
         attachments,

@@ -314,3 +314,97 @@ fn holes_are_round_long_or_slits() {
         assert_eq!(told(&format!("{plain} {hole}")), [code], "{hole}");
     }
 }
+
+/// Two plain pieces, before and behind, sewn at both sides.
+fn tube(panel: &str, more: &str) -> String {
+    format!(
+        "garment g {{ wearer l = female {{ size: EU 38 }}
+         panel front of cotton {{ size: 50cm x 60cm; grid: 50 x 60; {panel} }}
+         panel back = front with {{ }}
+         seam front.end -> back.start; seam front.start -> back.end notches 1
+         place front before l.waist; place back behind l.waist
+         {more} }}"
+    )
+}
+
+#[test]
+fn seams_are_notched_on_both_partners() {
+    let garment = sound(&tube("", ""), &[]).remove(0);
+    let places = |panel: &Panel| -> Vec<(i64, i64, u8)> {
+        let mm = |x: f64| (x * 1e3).round() as i64;
+        panel.notches.iter().map(|n| (mm(n.at[0]), mm(n.at[1]), n.count)).collect()
+    };
+    // Thirds of 60 cm, and the one that the other seam asks for; the mark looks into the cloth.
+    let [front, back] = garment.panels.as_slice() else { panic!("two pieces") };
+    assert_eq!(places(front), [(250, 200, 1), (250, 400, 1), (-250, 300, 1)]);
+    let mut behind = places(back);
+    behind.sort_unstable();
+    assert_eq!(behind, [(-250, 200, 1), (-250, 400, 1), (250, 300, 1)]);
+    for (notch, x) in front.notches.iter().zip([-1.0, -1.0, 1.0]) {
+        assert!((notch.inward[0] - x).abs() < 1e-9 && notch.inward[1].abs() < 1e-9);
+    }
+    // Between two back pieces there are two cuts.
+    let text = "garment g { wearer l = female { size: EU 38 }
+        panel back of cotton { rectangle 20cm x 60cm; pair as left, right }
+        seam back.left.start -> back.right.start
+        place back behind l.waist }";
+    let backs = sound(text, &[]).remove(0);
+    assert!(backs.panels.iter().all(|panel| panel.notches.iter().all(|n| n.count == 2)));
+    assert_eq!(backs.panels[0].notches.len(), 2);
+}
+
+#[test]
+fn allowances_and_plies_are_said_by_panel_and_edge() {
+    use darzi::garment::panel::Corner;
+    let more = "allowance: 12mm";
+    let panel = "allowance: 15mm; plies: 2; leave 4cm on bottom, top corner square";
+    let made = garment(&format!("rectangle 20cm x 10cm; {panel}"), more);
+    let said: Vec<(&str, f64, Corner)> = made.panels[0]
+        .edges
+        .iter()
+        .map(|edge| (edge.name.as_str(), edge.allowance, edge.corner))
+        .collect();
+    assert_eq!(
+        said,
+        [
+            ("bottom", 0.04, Corner::Square),
+            ("end", 0.015, Corner::Mitre),
+            ("top", 0.04, Corner::Square),
+            ("start", 0.015, Corner::Mitre),
+        ]
+    );
+    let plain = garment("rectangle 20cm x 10cm", more);
+    assert_eq!(plain.panels[0].edges[0].allowance, 0.012);
+    let mass = |made: &Garment| made.fabrics[made.panels[0].fabric].mass;
+    assert!((mass(&made) - 2.0 * mass(&plain)).abs() < 1e-12);
+    assert_eq!(told("rectangle 20cm x 10cm; leave 4cm on botom"), ["E0204"]);
+    assert_eq!(told("rectangle 20cm x 10cm; plies: 0"), ["E0303"]);
+}
+
+#[test]
+fn points_are_sewn_to_points() {
+    let line = "seam points front(3, 4) -> back(0, 4) -> back(0, 5); button front.top over back.top count 3 every 10cm";
+    let garment = sound(&tube("", line), &[]).remove(0);
+    let [points, buttons] = garment.stitches.as_slice() else { panic!("two lines") };
+    let mm = |at: [f64; 2]| at.map(|x| (x * 1e3).round() as i64);
+    let pairs: Vec<_> = points.pairs.iter().map(|p| p.map(|(n, at)| (n, mm(at)))).collect();
+    assert_eq!(pairs, [[(0, [-220, 40]), (1, [-250, 40])], [(0, [-220, 40]), (1, [-250, 50])]]);
+    // The upper rim runs from x = 25 cm backwards; 15 mm below it.
+    let pairs: Vec<_> = buttons.pairs.iter().map(|p| p.map(|(_, at)| mm(at))).collect();
+    assert_eq!(pairs, [[[100, 585]; 2], [[0, 585]; 2], [[-100, 585]; 2]]);
+    assert!(buttons.closure && !points.closure);
+    for (line, code) in [
+        ("seam points front(3, 4) -> back(60, 4)", "E0303"),
+        ("seam points front(3) -> back(0, 4)", "E0306"),
+        ("seam points front.side -> back(0, 4)", "E0204"),
+        ("seam points (3cm, 4cm) -> back(0, 4)", "E0304"),
+        ("seam near front.top -> back.top", "E0208"),
+        ("seam front.top -> back.top within 1cm", "E0207"),
+        ("seam within 1cm", "E0208"),
+        ("button front.top over back.top count 30 every 10cm", "E0303"),
+        ("button front over back.top count 3", "E0304"),
+        ("drape { settle until speed < 2mm/s; sew until gap < 1mm; close; close }", "E0804"),
+    ] {
+        assert_eq!(codes(&tube("", line)).first().map(String::as_str), Some(code), "{line}");
+    }
+}

@@ -102,6 +102,8 @@ fn a_dart_shares_its_tip_and_welds_its_mouth() {
     let waist = darzi::garment::panel::NamedEdge {
         name: "waist".into(),
         span: Default::default(),
+        allowance: 0.01,
+        corner: Default::default(),
         runs: [5, 2].map(|piece| whole(&cloth.panels, 0, piece, false).run).to_vec(),
     };
     cloth.panels[0].edges.push(waist);

@@ -3,7 +3,7 @@
 use darzi::diagnostic::Span;
 use darzi::garment::Garment;
 use darzi::garment::cloth::Surface;
-use darzi::garment::panel::{Loop, NamedEdge, Panel, Piece, Run};
+use darzi::garment::panel::{Corner, Loop, NamedEdge, Panel, Piece, Run};
 use darzi::garment::scene::{Phase, Placement};
 use darzi::garment::seam::{PanelRun, Seam, SeamKind};
 use kurbo::{BezPath, ParamCurveArclen};
@@ -67,6 +67,8 @@ pub fn panel(name: &str, loops: Vec<Loop>, cell: f64) -> Panel {
     let edges = pieces.map(|(number, piece)| NamedEdge {
         name: format!("e{number}"),
         span: Span::default(),
+        allowance: 0.01,
+        corner: Corner::default(),
         runs: vec![Run { ring: 0, piece: number, from: 0.0, to: piece.length }],
     });
     Panel {
@@ -78,6 +80,7 @@ pub fn panel(name: &str, loops: Vec<Loop>, cell: f64) -> Panel {
         layer: 0,
         edges: edges.collect(),
         loops,
+        allowance: 0.01,
         creases: Vec::new(),
         notches: Vec::new(),
         surface: Surface::Fabric,
@@ -105,6 +108,8 @@ pub fn garment(panels: Vec<Panel>, seams: Vec<Seam>) -> Garment {
         fabrics: Vec::new(),
         panels,
         seams,
+        stitches: Vec::new(),
+        nearby: Vec::new(),
         bodies: Vec::new(),
         solids: Vec::new(),
         attachments: Vec::new(),

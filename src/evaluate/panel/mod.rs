@@ -1,5 +1,6 @@
 //! Panels: from the words of a panel to cut pieces with named edges.
 
+mod allowance;
 mod crease;
 mod dart;
 pub mod edge;
@@ -20,7 +21,7 @@ use super::fields::Fields;
 use super::item::{ItemId, State};
 use super::scope::ScopeId;
 use crate::diagnostic::Span;
-use crate::garment::panel::{Crease, Loop, Notch, Run};
+use crate::garment::panel::{Corner, Crease, Loop, Notch, Run};
 use crate::garment::seam::SeamKind;
 use kurbo::{BezPath, Point};
 use sheet::Drawn;
@@ -71,6 +72,10 @@ pub struct Draft {
     pub layer: i32,
     /// Whether its face lies towards the wearer.
     pub inside: bool,
+    /// Plies of cloth of which it is made.
+    pub plies: u32,
+    /// Seam allowances, the last that fits an edge counts: its name, or all edges; m.
+    pub allowances: Vec<(Option<String>, f64, Corner)>,
     /// Its particles, where they are counted.
     pub counted: Option<Counted>,
     /// Edges as drawn, before folds and darts.

@@ -26,6 +26,11 @@ impl<'t> Evaluator<'t> {
         let span = self.item(item).span;
         let fabric = self.fabric_of(item, 0);
         let grain = self.quantity_or(&fields, "grain", Dimension::ANGLE, 0.0);
+        let plies = match fields.value("plies") {
+            Some(arg) => self.whole_number(arg, 1, 20).map(|plies| plies as u32),
+            None => Some(1),
+        };
+        let allowances = self.allowances(&fields);
         let layer = match fields.value("layer") {
             None => Some((0, false)),
             Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => {
@@ -107,6 +112,8 @@ impl<'t> Evaluator<'t> {
             sound &= self.sound_piece(piece, &name, span);
         }
         let (grain, cell, (layer, inside)) = (grain?, cell?, layer?);
+        let (plies, allowances) = (plies?, allowances?);
+        sound &= self.allowed_edges(&fields, &pieces);
         sound.then_some(Draft {
             item,
             name,
@@ -117,6 +124,8 @@ impl<'t> Evaluator<'t> {
             cell,
             layer,
             inside,
+            plies,
+            allowances,
             counted,
             drawn,
             pieces,

@@ -202,12 +202,11 @@ impl<'t> Evaluator<'t> {
     }
 
     /// `smooth (c, r), …`: the rim from the first to the last of the particles becomes a curve
-    /// through them.
+    /// through all of them.
     fn smooth(&mut self, phrase: &Phrase<'t>, region: &mut Region) -> Option<()> {
-        let args = phrase.args();
         let mut nodes = Vec::new();
-        for arg in &args {
-            nodes.push(self.particle(*arg)?);
+        for arg in phrase.args() {
+            nodes.push(self.particle(arg)?);
         }
         let (Some(&start), Some(&end)) = (nodes.first(), nodes.last()) else { return None };
         if nodes.len() < 3 {
@@ -220,30 +219,19 @@ impl<'t> Evaluator<'t> {
         for ring in &mut region.rings {
             let at = |node: Node| ring.iter().position(|step| step.from == node);
             let (Some(a), Some(b)) = (at(start), at(end)) else { continue };
-            // The way round that passes the second particle before the last.
+            // The way round that passes the second particle, or the shorter one where the curve
+            // is led by particles beside the line.
             let count = ring.len();
-            let before = |node: Node| at(node).map(|k| (k + count - a) % count);
-            let (length, second) = ((b + count - a) % count, before(*nodes.get(1)?));
-            let forward = second.is_some_and(|second| second < length);
+            let length = (b + count - a) % count;
+            let forward = match nodes.get(1).and_then(|second| at(*second)) {
+                Some(second) => (second + count - a) % count < length,
+                None => 2 * length <= count,
+            };
             let (from, length) = if forward { (a, length) } else { (b, count - length) };
             if !forward {
                 nodes.reverse();
             }
             let inner = nodes.get(1..nodes.len() - 1)?;
-            let mut last = 0;
-            for node in inner {
-                let way = ring
-                    .iter()
-                    .position(|step| step.from == *node)
-                    .map(|k| (k + count - from) % count);
-                match way {
-                    Some(way) if way > last && way < length => last = way,
-                    _ => {
-                        self.tell_off_rim(phrase, *node);
-                        return None;
-                    }
-                }
-            }
             ring.rotate_left(from);
             let mut smoothed = ring.first()?.clone();
             smoothed.through = Some(inner.to_vec());
@@ -253,10 +241,9 @@ impl<'t> Evaluator<'t> {
             ring.splice(0..length, [smoothed]);
             return Some(());
         }
-        let lost = nodes
-            .iter()
-            .find(|node| !region.rings.iter().flatten().any(|step| step.from == **node));
-        self.tell_off_rim(phrase, lost.copied().unwrap_or(end));
+        let on_rim = |node: Node| region.rings.iter().flatten().any(|step| step.from == node);
+        let lost = [start, end].into_iter().find(|node| !on_rim(*node));
+        self.tell_off_rim(phrase, lost.unwrap_or(end));
         None
     }
 
@@ -264,7 +251,7 @@ impl<'t> Evaluator<'t> {
         self.tell(
             Diagnostic::new("E0204", format!("({c}, {r}) is no particle of this part of the rim"))
                 .at(phrase.span, "here")
-                .help("name particles of one cut line, in their order along it"),
+                .help("name particles of one cut line"),
         );
     }
 

@@ -295,7 +295,7 @@ impl Sheet {
             .iter()
             .map(|(at, inward)| {
                 let size = libm::hypot(inward.x, inward.y).max(f64::MIN_POSITIVE);
-                Notch { at: [at.x, at.y], inward: [inward.x / size, inward.y / size] }
+                Notch { at: [at.x, at.y], inward: [inward.x / size, inward.y / size], count: 1 }
             })
             .collect()
     }

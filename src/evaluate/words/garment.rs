@@ -3,7 +3,7 @@
 use super::{Form, Kind, Vocabulary, Word, action, item, opening, property};
 
 /// Words of a garment that a block has not: they say how it is worn, shown and sized.
-pub(super) const WORN: &[&str] = &["drape", "picture", "grade", "grid", "fabric"];
+pub(super) const WORN: &[&str] = &["drape", "picture", "grade", "grid", "fabric", "allowance"];
 
 /// A rule of the writer's own.
 pub(super) const REQUIRE: Word = action(
@@ -41,8 +41,18 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "seam",
-                "EDGE->… [ ease LENGTH | gathered RATIO | stretched SHARE ] [ open LENGTH | zip LENGTH ] [ from EDGE ] [ stitch plain|felled|french|overlock ] [ reversed ]",
-                "sews edges together; lengths that differ must be eased, gathered or stretched",
+                "[ EDGE->… ] [ points PARTICLE->… | near PIECE->… ] [ within LENGTH ] [ notches NUMBER ] [ ease LENGTH | gathered RATIO | stretched SHARE ] [ open LENGTH | zip LENGTH ] [ from EDGE ] [ stitch plain|felled|french|overlock ] [ reversed ]",
+                "sews edges together; lengths that differ must be eased, gathered or stretched; or particle to particle, `seam points front(3, 4) -> back(0, 4)`, or rims where they lie near each other, `seam near a.end -> b.start within 1cm`",
+            ),
+            action(
+                "button",
+                "EDGE over EDGE count NUMBER [ every LENGTH ] [ inset LENGTH ]",
+                "buttons through two edges, the first over the second, closed by `close`; 15mm from both edges unless said otherwise",
+            ),
+            action(
+                "hook",
+                "EDGE over EDGE count NUMBER [ every LENGTH ] [ inset LENGTH ]",
+                "hooks and eyes, as buttons; at the edges themselves unless said otherwise",
             ),
             action(
                 "place",
@@ -66,6 +76,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "side of the cells of all panels, unless they say otherwise =8mm",
             ),
             property("fabric", "FABRIC", "the fabric of panels that name none"),
+            property("allowance", "LENGTH", "seam allowance of panels that say none =1cm"),
             property(
                 "grade",
                 "…",
@@ -83,6 +94,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "until CONDITION",
                 "draws the seams together without gravity: `sew until gap < 1mm`",
             ),
+            action("close", "", "closes buttons and hooks, and holds them from then on"),
             action(
                 "settle",
                 "until CONDITION [ within TIME ]",

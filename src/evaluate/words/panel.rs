@@ -51,6 +51,11 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "a closed inner outline: `hole from P { edges }`, `hole circle at P radius L`, `hole ellipse at P radius L x L`, `hole slit from P to P`",
             ),
             action("notch", "on EDGE at POSITION [ from EDGE ]", "a match mark"),
+            action(
+                "leave",
+                "LENGTH on EDGE,… [ corner mitre|square|round ]",
+                "the seam allowance beyond some edges, and how it is cut at their ends =mitre",
+            ),
             action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
             action(
                 "pair",
@@ -102,6 +107,8 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "CELLS [ x CELLS ]",
                 "side of the grid cells, or with a size their number across and up",
             ),
+            property("plies", "COUNT", "plies of cloth on each other =1"),
+            property("allowance", "LENGTH", "cloth left beyond the cut lines =1cm"),
             property(
                 "layer",
                 "LAYER",
