@@ -100,6 +100,8 @@ pub struct Workshop<'a> {
     layers: Option<Layers>,
     skin: &'a dyn Skin,
     system: System,
+    /// Iterations of the last step.
+    iterations: usize,
 }
 
 /// Most times a step is halved.
@@ -132,13 +134,15 @@ impl<'a> Workshop<'a> {
         let layout = Layout::new(compiled, &weld);
         let mut cloth = Cloth::new(compiled, weld);
         let holds = Holds::new(compiled, surfaces, &cloth, &x);
-        let system = System::new(layout, &mut cloth, &open, &holds.held);
+        let mut system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
+        system.lay_coarse(compiled, &cloth, &open);
         let mut v = vec![Vector3::zeros(); x.len()];
         let mut contact = Contact::new(&cloth, skin, &x);
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
             system,
+            iterations: 0,
             last: vec![Vector3::zeros(); x.len()],
             cloth,
             x,
@@ -242,6 +246,9 @@ impl<'a> Workshop<'a> {
                 let more: Vec<_> =
                     touches.diagonal().map(|(k, block)| (slots[k as usize], block)).collect();
                 self.system.factor(more.into_iter());
+                if self.system.coarse.is_due(self.iterations) {
+                    self.system.refresh_coarse(&term);
+                }
             }
             let (solution, taken) = self.system.solve(&term, &b, (&guess, &fall), manner.aim);
             iterations += taken;
@@ -276,6 +283,7 @@ impl<'a> Workshop<'a> {
         for v in &self.v {
             speed = speed.max(v.norm());
         }
+        self.iterations = iterations;
         Some(Taken { time: dt, speed, iterations, pinned, touches: touches.len(), cut })
     }
 

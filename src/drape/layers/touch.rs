@@ -112,4 +112,33 @@ impl Extra for Term {
         }
         total
     }
+
+    fn gather<'a>(
+        &self,
+        follows: &dyn Fn(u32) -> &'a [(u32, f32)],
+        add: &mut dyn FnMut(u32, u32, [[f32; 3]; 3]),
+    ) {
+        for t in &self.0 {
+            let mut nodes: Vec<(u32, f32)> = Vec::new();
+            for (s, w) in t.slots.iter().zip(t.weights) {
+                for (node, share) in follows(*s) {
+                    match nodes.iter_mut().find(|n| n.0 == *node) {
+                        Some(had) => had.1 += w * share,
+                        None => nodes.push((*node, w * share)),
+                    }
+                }
+            }
+            for (i, a) in &nodes {
+                for (j, b) in &nodes {
+                    let block = std::array::from_fn(|d| {
+                        std::array::from_fn(|c| {
+                            let own = if c == d { t.grip } else { 0.0 };
+                            a * b * (t.normal[d] * t.normal[c] * t.along + own)
+                        })
+                    });
+                    add(*i, *j, block);
+                }
+            }
+        }
+    }
 }

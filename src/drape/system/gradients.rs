@@ -1,5 +1,5 @@
 //! Conjugate gradients (Hestenes and Stiefel 1952), preconditioned with the sum of all warp and weft
-//! threads solved exactly and of an incomplete factor of the rim.
+//! threads solved exactly, of an incomplete factor of the rim, and of the coarse level.
 
 use super::sweep::{Advance, Rise, Turn};
 use super::{Aim, Extra, System, cut, each, read};
@@ -56,7 +56,7 @@ impl System {
     }
 
     /// `q = A p`; gives p · q.
-    fn multiply(&mut self, extra: &dyn Extra) -> f64 {
+    pub(super) fn multiply(&mut self, extra: &dyn Extra) -> f64 {
         let grid = &self.grid;
         let mut dots = vec![0.0; grid.layout.rows.len()];
         let lists = cut(&mut self.q, grid);
@@ -148,7 +148,8 @@ impl System {
         });
         each(parts.collect(), |part| self.arch.dispatch(part));
         let sum = dots.iter().sum::<f64>() + rising.iter().sum::<f64>();
-        sum + self.rim.precondition(&self.r, &mut self.z)
+        let sum = sum + self.rim.precondition(&self.r, &mut self.z);
+        sum + self.coarse.precondition(self.arch, &self.r, &mut self.z)
     }
 
     /// `p = z + β p`.

@@ -1,10 +1,11 @@
 //! The linear system of an implicit step: its matrix, and the factors of every warp and weft thread
-//! with which [`gradients`] solves it.
+//! with which the gradients solve it.
 //!
 //! # References
 //! Baraff and Witkin 1998 for the step; Hestenes and Stiefel 1952 for the gradients. Threads as
 //! preconditioner follow from the grid: the stiff directions of woven cloth are its lines.
 
+pub mod coarse;
 mod gradients;
 mod sweep;
 
@@ -17,6 +18,8 @@ use super::grid::strips::Strips;
 use super::grid::thread::{FactorWarp, FactorWeft, Threads, split};
 use super::grid::{BLOCK, Grid, STIFF};
 use super::rim::{Rim, place};
+use crate::mesh::compiled::Compiled;
+use coarse::Coarse;
 use nalgebra::{Matrix3, Vector3};
 use pulp::Arch;
 use rayon::prelude::*;
@@ -25,6 +28,28 @@ use rayon::prelude::*;
 pub trait Extra {
     /// `y += E x`, both by slots; gives the scalar product of x with what was added.
     fn multiply(&self, x: &Three, y: &mut Three) -> f64;
+
+    /// The same term for a coarse level: `follows` gives nodes and weights of a slot, `add` takes
+    /// the block of two nodes.
+    fn gather<'a>(
+        &self,
+        follows: &dyn Fn(u32) -> &'a [(u32, f32)],
+        add: &mut dyn FnMut(u32, u32, [[f32; 3]; 3]),
+    );
+}
+
+/// Nothing besides the cloth.
+impl Extra for () {
+    fn multiply(&self, _: &Three, _: &mut Three) -> f64 {
+        0.0
+    }
+
+    fn gather<'a>(
+        &self,
+        _: &dyn Fn(u32) -> &'a [(u32, f32)],
+        _: &mut dyn FnMut(u32, u32, [[f32; 3]; 3]),
+    ) {
+    }
 }
 
 /// When to stop.
@@ -62,6 +87,8 @@ pub struct System {
     risen: Vec<f32>,
     p: Three,
     q: Three,
+    /// Its coarse level.
+    pub coarse: Coarse,
 }
 
 fn three(n: usize) -> Three {
@@ -116,9 +143,35 @@ impl System {
             risen: vec![0.0; risen * 3 * LANES],
             p: three(n),
             q: three(n),
+            coarse: Coarse::default(),
             grid,
             rim,
         }
+    }
+
+    /// Lays the coarse level over the cloth.
+    pub fn lay_coarse(&mut self, compiled: &Compiled, cloth: &Cloth, sewn: &[[u32; 2]]) {
+        let springs = cloth.springs.iter().map(|s| s.ends.to_vec());
+        let cells = cloth.cells.iter().map(|c| c.corners.to_vec());
+        let triangles = cloth.triangles.iter().map(|t| t.corners.to_vec());
+        let folds = cloth.folds.iter().map(|f| f.knots[..f.count].to_vec());
+        let sewn = sewn.iter().map(|s| s.to_vec());
+        let near = springs.chain(cells).chain(triangles).chain(folds).chain(sewn);
+        let slot = &self.grid.layout.slot;
+        self.coarse = Coarse::new(compiled, &cloth.weld, slot, &self.free, near);
+    }
+
+    /// Brings the coarse level up to the matrix in hand, `extra` included.
+    pub fn refresh_coarse(&mut self, extra: &dyn Extra) {
+        let mut coarse = std::mem::take(&mut self.coarse);
+        let (mut p, mut q) = (three(self.free.len()), three(self.free.len()));
+        coarse.refresh(self.arch, [&mut p, &mut q], extra, |p, q| {
+            std::mem::swap(p, &mut self.p);
+            self.multiply(&());
+            std::mem::swap(p, &mut self.p);
+            std::mem::swap(q, &mut self.q);
+        });
+        self.coarse = coarse;
     }
 
     /// Sets the stiffness to the cloth's own at places x, times `scale`, and gives its forces, N.
