@@ -445,3 +445,60 @@ ok       ./c_warned.garment
     let kept_again = std::fs::read_to_string(folder.path().join("b_skirt.expected.json")).unwrap();
     assert_eq!(kept, kept_again, "nothing is accepted unasked");
 }
+
+#[test]
+fn a_fabric_is_shown_in_the_units_of_its_instruments() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("suit.garment"),
+        "/// A suiting from its FAST sheet.\nfabric suiting {\n    structure: twill_2_2\n    fast {\n        \
+         C: 20mm, 18mm\n        W: 200g/m2\n        EB5: 4.1%\n        E20: 1%, 2%\n    }\n}\n",
+    )
+    .unwrap();
+    let said = |call: &[&str]| {
+        let output = darzi(folder.path(), call);
+        (code(&output), String::from_utf8_lossy(&output.stdout).into_owned(), told(&output))
+    };
+    let (end, list, _) = said(&["fabric", "list", "suit.garment"]);
+    assert_eq!(end, 0);
+    assert!(list.starts_with("suiting"), "{list}");
+    assert!(list.lines().any(|line| line.starts_with("denim")), "{list}");
+
+    let (end, json, _) = said(&["fabric", "show", "suiting", "suit.garment", "--json"]);
+    assert_eq!(end, 0);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let bending = &json["measures"]["bending rigidity"];
+    assert_eq!(bending["from"], "fast");
+    let near = |value: &serde_json::Value, wanted: f64| {
+        let value = value.as_f64().unwrap();
+        assert!((value / wanted - 1.0).abs() < 1e-9, "{value} is not {wanted}");
+    };
+    // B = W g C³, and back to C.
+    near(&bending["in"][0]["warp"], 0.2 * 9.80665 * 8e-6);
+    near(&bending["in"][0]["weft"], 0.2 * 9.80665 * 5.832e-6);
+    near(&bending["in"][1]["warp"], 0.2 * 9.80665 * 8e-6 / 9.80665e-5);
+    near(&bending["in"][3]["warp"], 20.0);
+    // G = 123 / EB5, in gf/cm/deg.
+    near(
+        &json["measures"]["shear stiffness"]["in"][1]["value"],
+        30.0 / (0.980665 * 180.0 / std::f64::consts::PI),
+    );
+    // 19.6133 N/m at 1 % and at 2 %.
+    near(&json["measures"]["tension per strain"]["in"][0]["weft"], 19.6133 / 0.02);
+    assert_eq!(json["measures"]["friction"]["from"], "assumed");
+    assert_eq!(json["readings"].as_array().unwrap().len(), 4);
+
+    let (end, table, _) = said(&["fabric", "convert", "B=0.134gf.cm2/cm", "W=20mg/cm2"]);
+    assert_eq!(end, 0);
+    assert!(table.contains("1.314e-5") && table.contains("18.85"), "{table}");
+    assert!(!table.contains("assumed"), "only what follows from the rows: {table}");
+    let (end, _, why) = said(&["fabric", "convert", "C=18.5mm", "W=213.8g/m2"]);
+    assert_eq!(end, 0, "a bending length and a mass are enough: {why}");
+
+    let (end, _, why) = said(&["fabric", "convert", "B=1mm"]);
+    assert!(end == 1 && why.contains("E0302"), "{why}");
+    let (end, _, why) = said(&["fabric", "convert", "LT=0.6"]);
+    assert!(end == 2 && why.contains("nothing follows"), "{why}");
+    let (end, _, why) = said(&["fabric", "show", "woool"]);
+    assert!(end == 2 && why.contains("did you mean `wool`?"), "{why}");
+}

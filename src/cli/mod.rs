@@ -11,6 +11,7 @@ mod difference;
 mod drape;
 mod expected;
 mod explain;
+mod fabric;
 mod fmt;
 mod graded;
 mod lsp;
@@ -55,6 +56,8 @@ enum Command {
     Drape(drape::Drape),
     /// Draw a garment as it is worn: a .png
     Render(render::Render),
+    /// Fabrics as a laboratory sees them: measures, units, tests
+    Fabric(fabric::Fabric),
     /// Write a commented starter file
     New(new::New),
     /// Say what the code of a message means
@@ -175,6 +178,7 @@ pub fn main() -> ExitCode {
         Command::Compile(it) => it.run(),
         Command::Drape(it) => it.run(),
         Command::Render(it) => it.run(),
+        Command::Fabric(it) => it.run(),
         Command::New(it) => it.run(),
         Command::Explain(it) => it.run(),
         Command::Lsp(it) => it.run(),

@@ -52,6 +52,18 @@ impl Project {
         }
     }
 
+    /// A text that is no file; it may use those of the current folder.
+    pub(super) fn of_text(title: &str, text: &str, format: MessageFormat) -> Self {
+        let mut world = Disk::new(Path::new("."));
+        let root = world.take_in(title, text);
+        Project { world, root, format }
+    }
+
+    /// Does a piece of work on the file.
+    pub(super) fn with<T>(&mut self, job: impl FnOnce(&mut dyn World, FileId) -> T) -> T {
+        job(&mut self.world, self.root)
+    }
+
     /// The file and its text.
     pub(super) fn text(&self) -> (FileId, &str) {
         (self.root, self.world.text(self.root))

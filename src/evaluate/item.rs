@@ -11,6 +11,7 @@ use crate::garment::sari::Sari;
 use crate::garment::scene::BodyRequest;
 use crate::syntax::tree::{Expr, ExprKind};
 use crate::textile::fabric::Fabric;
+use crate::textile::origin::Origins;
 use crate::textile::{knit::Knit, motif::Motif, weave::Weave, yarn::Yarn};
 use std::rc::Rc;
 
@@ -47,7 +48,8 @@ pub struct Item<'t> {
 #[allow(missing_docs)]
 pub enum Made {
     Yarn(Rc<Yarn>),
-    Fabric(Rc<Fabric>),
+    /// A fabric, and where its measures come from.
+    Fabric(Rc<Fabric>, Rc<Origins>),
     Weave(Rc<Weave>),
     Knit(Rc<Knit>),
     Motif(Rc<Motif>),
@@ -172,7 +174,8 @@ impl<'t> Evaluator<'t> {
         let kind = self.item(id).kind;
         let made = self.deeper_item(from, |ev| match kind {
             Kind::Yarn => textile::yarn(ev, id).map(|it| Made::Yarn(Rc::new(it))),
-            Kind::Fabric => textile::fabric(ev, id).map(|it| Made::Fabric(Rc::new(it))),
+            Kind::Fabric => textile::fabric(ev, id)
+                .map(|(fabric, origins)| Made::Fabric(Rc::new(fabric), Rc::new(origins))),
             Kind::Weave => textile::weave(ev, id).map(|it| Made::Weave(Rc::new(it))),
             Kind::Knit => textile::knit(ev, id).map(|it| Made::Knit(Rc::new(it))),
             Kind::Motif => textile::motif(ev, id).map(|it| Made::Motif(Rc::new(it))),
@@ -206,7 +209,7 @@ impl<'t> Evaluator<'t> {
     /// The fabric of that number, worked out.
     pub fn fabric(&mut self, id: ItemId, from: Span) -> Option<Rc<Fabric>> {
         match self.make(id, from)? {
-            Made::Fabric(fabric) => Some(fabric),
+            Made::Fabric(fabric, _) => Some(fabric),
             _ => None,
         }
     }

@@ -7,6 +7,7 @@
 //! steps for the whole text.
 
 mod block;
+pub mod catalogue;
 mod choice;
 mod declaration;
 mod drape;
@@ -85,8 +86,7 @@ pub fn evaluate(
     root: FileId,
     options: &Options,
 ) -> (Vec<Garment>, Vec<Diagnostic>) {
-    let (garments, told, _) = work(world, root, options, false);
-    (garments, told)
+    work(world, root, options, |evaluator| evaluator.file(&options.names))
 }
 
 /// As [`evaluate()`], and notes on the way what there is to know about the text.
@@ -95,15 +95,20 @@ pub fn study(
     root: FileId,
     options: &Options,
 ) -> (Vec<Garment>, Vec<Diagnostic>, Facts) {
-    work(world, root, options, true)
+    let ((garments, facts), told) = work(world, root, options, |evaluator| {
+        evaluator.notes = Some(Box::default());
+        (evaluator.file(&options.names), evaluator.facts())
+    });
+    (garments, told, facts)
 }
 
-fn work(
+/// Reads a file with all it uses and does a piece of work on it.
+fn work<T: Default + Send>(
     world: &mut dyn World,
     root: FileId,
     options: &Options,
-    noted: bool,
-) -> (Vec<Garment>, Vec<Diagnostic>, Facts) {
+    job: impl FnOnce(&mut Evaluator<'_>) -> T + Send,
+) -> (T, Vec<Diagnostic>) {
     let (files, asked, mut told) = module::load(world, root, &options.set);
     // Values nest as deep as the text makes them; the work gets a stack that holds the limit.
     let worked = std::thread::scope(|scope| {
@@ -111,17 +116,15 @@ fn work(
             .stack_size(STACK)
             .spawn_scoped(scope, || {
                 let mut evaluator = Evaluator::new(&files, &asked, root, options.size.as_deref());
-                evaluator.notes = noted.then(Box::default);
-                let garments = evaluator.file(&options.names);
-                let facts = evaluator.facts();
-                (garments, evaluator.told, facts)
+                let result = job(&mut evaluator);
+                (result, evaluator.told)
             })
             .map(std::thread::ScopedJoinHandle::join)
     });
-    let (garments, facts) = match worked {
-        Ok(Ok((garments, more, facts))) => {
+    let result = match worked {
+        Ok(Ok((result, more))) => {
             told.extend(more);
-            (garments, facts)
+            result
         }
         Ok(Err(panic)) => std::panic::resume_unwind(panic),
         Err(error) => {
@@ -129,11 +132,11 @@ fn work(
                 Diagnostic::new("E0911", format!("there is no room to work: {error}"))
                     .at(Span::new(root, 0, 0), ""),
             );
-            Default::default()
+            T::default()
         }
     };
     in_order(root, &mut told);
-    (garments, told, facts)
+    (result, told)
 }
 
 /// Everything known while a file is worked out.

@@ -3,9 +3,13 @@
 //! A chart is the face of the cloth as it hangs before you. In memory row 0 is the bottom row of
 //! the chart (the first pick, the first knitted row) and column 0 its left column.
 
+pub mod clo;
 pub mod fabric;
+pub mod fast;
+pub mod kes;
 pub mod knit;
 pub mod motif;
+pub mod origin;
 pub mod weave;
 pub mod yarn;
 

@@ -8,6 +8,7 @@ use crate::evaluate::fields::{Fields, Phrase};
 use crate::evaluate::item::{ItemId, Made};
 use crate::evaluate::words::Kind;
 use crate::textile::fabric::{Fabric, Finish, Structure, Thread};
+use crate::textile::origin::{Origin, Origins};
 use crate::textile::weave::Weave;
 use crate::textile::yarn::{Fibre, Twist, Yarn};
 use crate::units::{self, Dimension};
@@ -52,13 +53,15 @@ impl Usual {
 /// Threads per metre of a cloth whose text names no yarns.
 const PLAIN_SETT: f64 = 2_400.0;
 
-/// A fabric.
-pub(in crate::evaluate) fn fabric(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Fabric> {
+/// A fabric, and where its measures come from.
+pub(in crate::evaluate) fn fabric(ev: &mut Evaluator<'_>, id: ItemId) -> Option<(Fabric, Origins)> {
     let fields = ev.open_item(id)?;
     let mass = stated(ev, &fields, "mass", Dimension::MASS_PER_AREA, 1e-3, 5.0);
-    let kes = fields.get("kes").cloned().map(|phrase| sheet::kes(ev, &phrase));
+    let kes = fields.get("kes").cloned().map(|phrase| sheet::kes_sheet(ev, &phrase));
     let own_mass = mass.ok().flatten().map(|mass| mass.value);
-    let fast = fields.get("fast").cloned().map(|phrase| sheet::fast(ev, &phrase, own_mass));
+    // A bending length wants a mass, wherever it is said.
+    let told_mass = own_mass.or(kes.iter().flatten().find_map(|s| s.mass).map(|mass| mass.value));
+    let fast = fields.get("fast").cloned().map(|phrase| sheet::fast_sheet(ev, &phrase, told_mass));
     let thickness = stated(ev, &fields, "thickness", Dimension::LENGTH, 1e-5, 0.05);
     let bending = both(ev, &fields, "bending", Dimension::BENDING, 1e-9, 0.1);
     let tensile = both(ev, &fields, "tensile", Dimension::TENSION, 1.0, 1e7);
@@ -97,33 +100,72 @@ pub(in crate::evaluate) fn fabric(ev: &mut Evaluator<'_>, id: ItemId) -> Option<
     one("tensile", span2(tensile), &of(&|s| span2(s.tensile)));
     one("shear", span1(shear), &of(&|s| span1(s.shear)));
     one("friction", span1(friction), &of(&|s| span1(s.friction)));
-    let measured = |pick: &dyn Fn(&Sheet) -> Option<Stated<f64>>| sheets.iter().find_map(pick);
-    let pairs = |pick: &dyn Fn(&Sheet) -> Option<Stated<[f64; 2]>>| sheets.iter().find_map(pick);
     let structure = structure?;
-    let said = mass.or(measured(&|s| s.mass));
-    let mass = said.map_or_else(|| structure.mass(), |mass| mass.value);
+    let made = if ["warp", "weft", "yarn"].iter().any(|word| fields.get(word).is_some()) {
+        Origin::Yarns
+    } else {
+        Origin::Assumed
+    };
+    let single = |own: Option<Stated<f64>>, pick: &dyn Fn(&Sheet) -> Option<Stated<f64>>| {
+        chosen(own, &sheets, pick)
+    };
+    let pairs = |own: Option<Stated<[f64; 2]>>,
+                 pick: &dyn Fn(&Sheet) -> Option<Stated<[f64; 2]>>| {
+        chosen(own, &sheets, pick)
+    };
+    let said = mass.or(sheets.iter().find_map(|s| s.mass));
+    let mass = single(mass, &|s| s.mass).unwrap_or_else(|| (structure.mass(), made));
     let usual = match structure {
-        Structure::Woven { .. } => COTTON.of_mass(mass),
-        Structure::Knitted { .. } => JERSEY.of_mass(mass),
+        Structure::Woven { .. } => COTTON.of_mass(mass.0),
+        Structure::Knitted { .. } => JERSEY.of_mass(mass.0),
+    };
+    let thickness =
+        single(thickness, &|s| s.thickness).unwrap_or_else(|| (structure.thickness(), made));
+    let bending = pairs(bending, &|s| s.bending).unwrap_or((usual.bending, Origin::Assumed));
+    let tensile = pairs(tensile, &|s| s.tensile).unwrap_or((usual.tensile, Origin::Assumed));
+    let shear = single(shear, &|s| s.shear).unwrap_or((usual.shear, Origin::Assumed));
+    let friction = single(friction, &|s| s.friction).unwrap_or((0.3, Origin::Assumed));
+    let poisson = single(poisson.ok()?, &|_| None).unwrap_or((0.25, Origin::Assumed));
+    let damping = single(damping.ok()?, &|_| None).unwrap_or((0.02, Origin::Assumed));
+    let origins = Origins {
+        mass: mass.1,
+        thickness: thickness.1,
+        bending: bending.1,
+        tensile: tensile.1,
+        shear: shear.1,
+        poisson: poisson.1,
+        friction: friction.1,
+        damping: damping.1,
+        readings: sheets.iter().flat_map(|sheet| sheet.readings.iter().cloned()).collect(),
     };
     let fabric = Fabric {
         name: ev.item(id).name.clone(),
-        mass,
-        thickness: thickness
-            .or(measured(&|s| s.thickness))
-            .map_or_else(|| structure.thickness(), |it| it.value),
-        bending: bending.or(pairs(&|s| s.bending)).map_or(usual.bending, |it| it.value),
-        tensile: tensile.or(pairs(&|s| s.tensile)).map_or(usual.tensile, |it| it.value),
-        shear: shear.or(measured(&|s| s.shear)).map_or(usual.shear, |it| it.value),
-        poisson: poisson.ok()?.map_or(0.25, |it| it.value),
-        friction: friction.or(measured(&|s| s.friction)).map_or(0.3, |it| it.value),
-        damping: damping.ok()?.map_or(0.02, |it| it.value),
+        mass: mass.0,
+        thickness: thickness.0,
+        bending: bending.0,
+        tensile: tensile.0,
+        shear: shear.0,
+        poisson: poisson.0,
+        friction: friction.0,
+        damping: damping.0,
         finish: finish(&fields),
         structure,
     };
     check_mass(ev, &fields, &fabric, said);
     check_threads(ev, &fields, &fabric);
-    Some(fabric)
+    Some((fabric, origins))
+}
+
+/// A measure as the text says it, or else a sheet, and which.
+fn chosen<T>(
+    own: Option<Stated<T>>,
+    sheets: &[Sheet],
+    pick: &dyn Fn(&Sheet) -> Option<Stated<T>>,
+) -> Option<(T, Origin)> {
+    match own {
+        Some(own) => Some((own.value, Origin::Stated)),
+        None => sheets.iter().find_map(|s| pick(s).map(|it| (it.value, s.origin))),
+    }
 }
 
 fn finish(fields: &Fields<'_>) -> Finish {

@@ -4,7 +4,9 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Fields, Phrase};
 use crate::evaluate::words::Kind;
-use crate::units::{Dimension, GRAVITY};
+use crate::textile::origin::{Origin, Reading};
+use crate::textile::{fast, kes};
+use crate::units::Dimension;
 
 /// A quantity with the place where it is said.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +16,10 @@ pub(super) struct Stated<T> {
 }
 
 /// What a sheet says of a fabric, SI units; pairs are warp, weft.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Sheet {
+    pub origin: Origin,
+    pub readings: Vec<Reading>,
     pub bending: Option<Stated<[f64; 2]>>,
     pub tensile: Option<Stated<[f64; 2]>>,
     pub shear: Option<Stated<f64>>,
@@ -23,14 +27,6 @@ pub(super) struct Sheet {
     pub mass: Option<Stated<f64>>,
     pub friction: Option<Stated<f64>>,
 }
-
-/// The load of the KES-F tensile test, 500 gf/cm, N/m.
-const KES_LOAD: f64 = 500.0 * 0.980665;
-
-/// The load at which a tensile curve is made a straight line, 20 gf/cm, N/m: about what a
-/// garment's own weight and its wearer's movements put on the cloth, far below the 500 gf/cm at
-/// which the test ends.
-const WORN_LOAD: f64 = 20.0 * 0.980665;
 
 /// Two quantities, warp and weft; one stands for both. More are told.
 pub(super) fn pair<'t>(
@@ -62,18 +58,27 @@ pub(super) fn pair<'t>(
     Some(Stated { value, span: phrase.span })
 }
 
-/// Reads a row of a sheet where it is given; `Err` where it is wrong.
-fn row<'t>(
-    ev: &mut Evaluator<'t>,
-    fields: &Fields<'t>,
-    word: &str,
-    dimension: Dimension,
-    low: f64,
-    high: f64,
-) -> Result<Option<Stated<[f64; 2]>>, ()> {
-    match fields.get(word).cloned() {
-        Some(phrase) => pair(ev, &phrase, dimension, low, high).map(Some).ok_or(()),
-        None => Ok(None),
+/// The rows of a sheet, read one by one and kept as they are written.
+struct Rows<'e, 't, 'f> {
+    ev: &'e mut Evaluator<'t>,
+    fields: &'f Fields<'t>,
+    sheet: Origin,
+    readings: Vec<Reading>,
+}
+
+impl Rows<'_, '_, '_> {
+    /// A row where it is given; `Err` where it is wrong.
+    fn read(
+        &mut self,
+        name: &'static str,
+        dimension: Dimension,
+        low: f64,
+        high: f64,
+    ) -> Result<Option<Stated<[f64; 2]>>, ()> {
+        let Some(phrase) = self.fields.get(name).cloned() else { return Ok(None) };
+        let row = pair(self.ev, &phrase, dimension, low, high).ok_or(())?;
+        self.readings.push(Reading { sheet: self.sheet, name, dimension, value: row.value });
+        Ok(Some(row))
     }
 }
 
@@ -81,55 +86,57 @@ fn mean(of: Stated<[f64; 2]>) -> Stated<f64> {
     Stated { value: (of.value[0] + of.value[1]) / 2.0, span: of.span }
 }
 
-/// The KES-F sheet in the block of `phrase` (Kawabata 1980; units of the sheet).
+/// The KES-F sheet in the block of `phrase`.
 ///
-/// The tensile curve is F = F_m (ε/ε_m)ⁿ with n = 2/LT − 1, F_m = 500 gf/cm, ε_m = EM; its
-/// stiffness is taken as the secant at the load of wear. Without LT the curve is straight.
-pub(super) fn kes<'t>(ev: &mut Evaluator<'t>, phrase: &Phrase<'t>) -> Option<Sheet> {
+/// The stiffness of the tensile curve is its [secant at the load of wear](kes::worn_secant).
+/// Without LT the curve is straight.
+pub(super) fn kes_sheet<'t>(ev: &mut Evaluator<'t>, phrase: &Phrase<'t>) -> Option<Sheet> {
     let block = phrase.block?;
     let fields = ev.read_plain(Kind::Kes, block, "the KES-F sheet", phrase.scope);
     kes_rows(ev, &fields).ok()
 }
 
 fn kes_rows<'t>(ev: &mut Evaluator<'t>, fields: &Fields<'t>) -> Result<Sheet, ()> {
-    let extension = row(ev, fields, "EM", Dimension::NUMBER, 1e-5, 5.0)?;
-    let linearity = row(ev, fields, "LT", Dimension::NUMBER, 0.05, 1.9)?;
-    let energy = row(ev, fields, "WT", Dimension::TENSION, 0.0, 1e4)?;
+    let mut rows = Rows { ev, fields, sheet: Origin::Kes, readings: Vec::new() };
+    let extension = rows.read("EM", Dimension::NUMBER, 1e-5, 5.0)?;
+    let linearity = rows.read("LT", Dimension::NUMBER, 0.05, 1.9)?;
+    let energy = rows.read("WT", Dimension::TENSION, 0.0, 1e4)?;
     // Read for their dimensions; the elastic cloth has no use for them.
-    row(ev, fields, "RT", Dimension::NUMBER, 0.0, 2.0)?;
-    row(ev, fields, "2HG", Dimension::TENSION, 0.0, 1e4)?;
-    row(ev, fields, "2HG5", Dimension::TENSION, 0.0, 1e4)?;
-    row(ev, fields, "2HB", Dimension::FORCE, 0.0, 1e2)?;
-    row(ev, fields, "Tm", Dimension::LENGTH, 0.0, 0.1)?;
-    row(ev, fields, "LC", Dimension::NUMBER, 0.0, 2.0)?;
-    row(ev, fields, "MMD", Dimension::NUMBER, 0.0, 2.0)?;
-    row(ev, fields, "SMD", Dimension::LENGTH, 0.0, 0.01)?;
-    let shear = row(ev, fields, "G", Dimension::SHEAR, 0.0, 1e5)?;
-    let bending = row(ev, fields, "B", Dimension::BENDING, 1e-9, 0.1)?;
-    let thickness = row(ev, fields, "T0", Dimension::LENGTH, 1e-5, 0.05)?;
-    let friction = row(ev, fields, "MIU", Dimension::NUMBER, 0.0, 2.0)?;
-    let mass = row(ev, fields, "W", Dimension::MASS_PER_AREA, 1e-3, 5.0)?;
+    rows.read("RT", Dimension::NUMBER, 0.0, 2.0)?;
+    rows.read("2HG", Dimension::TENSION, 0.0, 1e4)?;
+    rows.read("2HG5", Dimension::TENSION, 0.0, 1e4)?;
+    rows.read("2HB", Dimension::FORCE, 0.0, 1e2)?;
+    rows.read("Tm", Dimension::LENGTH, 0.0, 0.1)?;
+    rows.read("LC", Dimension::NUMBER, 0.0, 2.0)?;
+    rows.read("MMD", Dimension::NUMBER, 0.0, 2.0)?;
+    rows.read("SMD", Dimension::LENGTH, 0.0, 0.01)?;
+    let shear = rows.read("G", Dimension::SHEAR, 0.0, 1e5)?;
+    let bending = rows.read("B", Dimension::BENDING, 1e-9, 0.1)?;
+    let thickness = rows.read("T0", Dimension::LENGTH, 1e-5, 0.05)?;
+    let friction = rows.read("MIU", Dimension::NUMBER, 0.0, 2.0)?;
+    let mass = rows.read("W", Dimension::MASS_PER_AREA, 1e-3, 5.0)?;
     let straight = Stated { value: [1.0, 1.0], span: fields.span };
     // WT = LT · ½ F_m ε_m: of extension, linearity and energy any two give the third.
     let curve = match (extension, linearity, energy) {
         (Some(em), Some(lt), _) => Some((em, lt)),
         (Some(em), None, Some(wt)) => {
-            let lt =
-                [0, 1].map(|i| (2.0 * wt.value[i] / (KES_LOAD * em.value[i])).clamp(0.05, 1.9));
+            let lt = [0, 1].map(|i| kes::linearity(em.value[i], wt.value[i]));
             Some((em, Stated { value: lt, span: wt.span }))
         }
         (Some(em), None, None) => Some((em, straight)),
         (None, Some(lt), Some(wt)) => {
-            let em = [0, 1].map(|i| 2.0 * wt.value[i] / (KES_LOAD * lt.value[i]));
+            let em = [0, 1].map(|i| kes::extension(lt.value[i], wt.value[i]));
             Some((Stated { value: em, span: wt.span }, lt))
         }
         _ => None,
     };
     let tensile = curve.map(|(em, lt)| Stated {
-        value: [0, 1].map(|i| worn_secant(em.value[i], lt.value[i])),
+        value: [0, 1].map(|i| kes::worn_secant(em.value[i], lt.value[i])),
         span: em.span,
     });
     Ok(Sheet {
+        origin: Origin::Kes,
+        readings: rows.readings,
         bending,
         tensile,
         shear: shear.map(mean),
@@ -139,16 +146,9 @@ fn kes_rows<'t>(ev: &mut Evaluator<'t>, fields: &Fields<'t>) -> Result<Sheet, ()
     })
 }
 
-/// Tension per strain at the load of wear on the curve of extension EM and linearity LT, N/m.
-fn worn_secant(extension: f64, linearity: f64) -> f64 {
-    let power = 2.0 / linearity - 1.0;
-    let strain = extension * libm::pow(WORN_LOAD / KES_LOAD, 1.0 / power);
-    WORN_LOAD / strain.max(1e-9)
-}
-
-/// The FAST sheet in the block of `phrase` (De Boos and Tester 1994). `stated` is the mass that
+/// The FAST sheet in the block of `phrase`. `stated` is the mass that
 /// the fabric itself gives, for bending rigidity from bending length.
-pub(super) fn fast<'t>(
+pub(super) fn fast_sheet<'t>(
     ev: &mut Evaluator<'t>,
     phrase: &Phrase<'t>,
     stated: Option<f64>,
@@ -163,64 +163,56 @@ fn fast_rows<'t>(
     fields: &Fields<'t>,
     stated: Option<f64>,
 ) -> Result<Sheet, ()> {
+    let mut rows = Rows { ev, fields, sheet: Origin::Fast, readings: Vec::new() };
     let share = (Dimension::NUMBER, 1e-5, 5.0);
-    let at_5 = row(ev, fields, "E5", share.0, 0.0, share.2)?;
-    let at_20 = row(ev, fields, "E20", share.0, share.1, share.2)?;
-    let at_100 = row(ev, fields, "E100", share.0, share.1, share.2)?;
-    let bias = row(ev, fields, "EB5", share.0, share.1, share.2)?;
-    let length = row(ev, fields, "C", Dimension::LENGTH, 1e-3, 0.5)?;
-    let rigidity = row(ev, fields, "B", Dimension::BENDING, 1e-9, 0.1)?;
-    let shear = row(ev, fields, "G", Dimension::TENSION, 0.0, 1e5)?;
-    let thickness = row(ev, fields, "T2", Dimension::LENGTH, 1e-5, 0.05)?;
-    row(ev, fields, "T100", Dimension::LENGTH, 0.0, 0.05)?;
-    let mass = row(ev, fields, "W", Dimension::MASS_PER_AREA, 1e-3, 5.0)?.map(mean);
+    let at_5 = rows.read("E5", share.0, 0.0, share.2)?;
+    let at_20 = rows.read("E20", share.0, share.1, share.2)?;
+    let at_100 = rows.read("E100", share.0, share.1, share.2)?;
+    let bias = rows.read("EB5", share.0, share.1, share.2)?;
+    let length = rows.read("C", Dimension::LENGTH, 1e-3, 0.5)?;
+    let rigidity = rows.read("B", Dimension::BENDING, 1e-9, 0.1)?;
+    let shear = rows.read("G", Dimension::TENSION, 0.0, 1e5)?;
+    let thickness = rows.read("T2", Dimension::LENGTH, 1e-5, 0.05)?;
+    rows.read("T100", Dimension::LENGTH, 0.0, 0.05)?;
+    let mass = rows.read("W", Dimension::MASS_PER_AREA, 1e-3, 5.0)?.map(mean);
     // The loads are 5, 20 and 100 gf/cm; 20 is the load of wear, else the nearest that was tested.
+    let [load_5, load_20, load_100] = fast::LOADS;
     let secant = |row: Stated<[f64; 2]>, load: f64| Stated {
-        value: row.value.map(|strain| load * 0.980665 / strain.max(1e-6)),
+        value: row.value.map(|strain| fast::secant(strain, load)),
         span: row.span,
     };
     let tensile = at_20
-        .map(|row| secant(row, 20.0))
-        .or(at_100.map(|row| secant(row, 100.0)))
-        .or(at_5.map(|row| secant(row, 5.0)));
+        .map(|row| secant(row, load_20))
+        .or(at_100.map(|row| secant(row, load_100)))
+        .or(at_5.map(|row| secant(row, load_5)));
     let bending = match (rigidity, length) {
         (Some(rigidity), _) => Some(rigidity),
         (None, Some(length)) => {
             let Some(mass) = mass.map(|mass| mass.value).or(stated) else {
-                ev.tell(
+                rows.ev.tell(
                     Diagnostic::new("E0208", "bending length `C` wants the mass `W` beside it")
                         .at(length.span, "here")
                         .help("bending rigidity is mass × gravity × length³"),
                 );
                 return Err(());
             };
-            let value = length.value.map(|c| mass * GRAVITY * c * c * c);
+            let value = length.value.map(|c| fast::rigidity(mass, c));
             Some(Stated { value, span: length.span })
         }
         (None, None) => None,
     };
-    // FAST: G = 123 / EB5 with EB5 in percent and G in N/m.
     let shear = shear.map(mean).or(bias.map(|row| {
         let mean = mean(row);
-        Stated { value: 1.23 / mean.value, span: mean.span }
+        Stated { value: fast::shear(mean.value), span: mean.span }
     }));
-    Ok(Sheet { bending, tensile, shear, thickness: thickness.map(mean), mass, friction: None })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_straight_curve_has_the_same_stiffness_at_every_load() {
-        let at_the_end = KES_LOAD / 0.04;
-        assert!((worn_secant(0.04, 1.0) / at_the_end - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_crimped_cloth_is_softer_when_worn_than_when_torn() {
-        // LT = 2/3: n = 2, so at 1/25 of the load a fifth of the extension is reached.
-        let worn = worn_secant(0.04, 2.0 / 3.0);
-        assert!((worn - WORN_LOAD / (0.04 / 5.0)).abs() < 1e-6 * worn);
-    }
+    Ok(Sheet {
+        origin: Origin::Fast,
+        readings: rows.readings,
+        bending,
+        tensile,
+        shear,
+        thickness: thickness.map(mean),
+        mass,
+        friction: None,
+    })
 }

@@ -38,7 +38,7 @@ fn sound(text: &str) -> Made {
 
 fn fabric(text: &str) -> Fabric {
     match sound(text) {
-        Made::Fabric(fabric) => (*fabric).clone(),
+        Made::Fabric(fabric, _) => (*fabric).clone(),
         other => panic!("{other:?}"),
     }
 }
