@@ -54,6 +54,11 @@ fn replaces(statement: &Statement) -> Option<&str> {
             shape if SHAPES.contains(&shape) => Some("outline"),
             "unfold" => Some("unfold"),
             "pair" => Some("pair"),
+            // Of a copied block, the items by their names.
+            "panel" | "part" | "wearer" => match phrase.first() {
+                Some(Item::Expr(expr)) => bare(expr).map(|name| name.text.as_str()),
+                _ => None,
+            },
             _ => None,
         },
         _ => None,

@@ -245,8 +245,8 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Works out every name of the file, so that a mistake is told although nobody needs the
-    /// value, and tells what was to be set and is not there.
-    pub(super) fn check_names(&mut self) {
+    /// value, and, if the whole file was read, tells what was to be set and is not there.
+    pub(super) fn check_names(&mut self, whole: bool) {
         let mut at = 0;
         while let Some(binding) = self.bindings.get(at) {
             let own = matches!(binding.what, What::Let(_) | What::Param { .. });
@@ -265,7 +265,7 @@ impl<'t> Evaluator<'t> {
             .collect();
         names.sort();
         names.dedup();
-        for asked in self.options {
+        for asked in self.options.iter().filter(|_| whole) {
             let Name { text, span } = &asked.name;
             if !self.asked_for.contains(text) {
                 let label = self.meant(text, names.iter().map(String::as_str));

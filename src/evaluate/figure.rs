@@ -129,7 +129,8 @@ pub(super) fn wearer(ev: &mut Evaluator<'_>, id: ItemId) -> Option<BodyRequest> 
     let base = ev.item_named(arg, Kind::Body)?;
     let Made::Body(body) = ev.make(base, arg.expr.span)? else { return None };
     let fields = ev.open_item(id)?;
-    let asked = match ev.size.zip(body.sizes) {
+    // A block that no part uses is nobody's in particular.
+    let asked = match ev.size.zip(body.sizes).filter(|_| !ev.is_lone(fields.scope)) {
         Some((asked, table)) => {
             Some(row(ev, table, asked, (phrase.span, "another size is asked for"))?)
         }

@@ -106,6 +106,18 @@ impl<'t> Evaluator<'t> {
         let mut garments = Vec::new();
         let mut known: Vec<String> = Vec::new();
         for phrase in &fields.phrases {
+            if let Some(id) = phrase.item {
+                let name = self.item(id).name.clone();
+                // In another size only those are drawn that are wanted: others may have none.
+                let passed_over =
+                    self.size.is_some() && !names.is_empty() && !names.contains(&name);
+                if matches!(phrase.word.name, "garment" | "scene") {
+                    known.push(name);
+                    if passed_over {
+                        continue;
+                    }
+                }
+            }
             let before = self.errors();
             let made = match (phrase.word.name, phrase.item) {
                 ("garment", Some(id)) => self.garment(id),
@@ -113,15 +125,12 @@ impl<'t> Evaluator<'t> {
                 ("picture", _) => self.pictured(phrase),
                 _ => continue,
             };
-            if let Some(id) = phrase.item {
-                known.push(self.item(id).name.clone());
-            }
             garments.extend(made.filter(|_| self.errors() == before));
         }
         self.make_all(self.root);
         self.look_at_lone_blocks();
         self.requirements(&fields);
-        self.check_names();
+        self.check_names(self.size.is_none() || names.is_empty());
         self.allow();
         if names.is_empty() {
             return garments;
@@ -331,12 +340,19 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Whether a panel or one it copies names a fabric, right or wrong.
-    fn says_fabric(&self, id: ItemId) -> bool {
+    fn says_fabric(&mut self, id: ItemId) -> bool {
+        let mut copied = Some(id);
+        // A copy that could be drawn is none of itself.
+        while let Some(arg) = copied.and_then(|id| self.item(id).phrase.value("=")) {
+            let base = self.item_named(arg, Kind::Panel);
+            if base.is_none_or(|base| self.item(base).phrase.says("of")) {
+                return true;
+            }
+            copied = base;
+        }
         let item = self.item(id);
         let opened = self.instances.iter().rev().find(|instance| instance.item == id);
-        item.phrase.says("of")
-            || item.phrase.says("=")
-            || opened.is_some_and(|instance| instance.fields.mentions("fabric"))
+        item.phrase.says("of") || opened.is_some_and(|instance| instance.fields.mentions("fabric"))
     }
 
     /// The number of a fabric in the garment.

@@ -29,7 +29,8 @@ const LIBRARY: &[&str] = &[
 ];
 
 /// The library's modules of blocks, read only where a text may have parts.
-pub(super) const BLOCKS: &[&str] = &[];
+pub(super) const BLOCKS: &[&str] =
+    &["std::bodice", "std::collar", "std::indian", "std::skirt", "std::sleeve", "std::trousers"];
 
 /// A file that was read.
 #[derive(Debug)]

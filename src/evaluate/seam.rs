@@ -43,6 +43,31 @@ struct Pending<'p, 't> {
     b: Vec<Element>,
 }
 
+/// The ways in which a row can be walked: with its cloth to the left, and to the right.
+fn ways(row: &[Element], corners: &Corners) -> (bool, bool) {
+    match row {
+        [_] => (true, true),
+        row => (corners.chains(row, true), corners.chains(row, false)),
+    }
+}
+
+/// The corners that meet in a seam whose rows join one way only.
+fn links(seam: &Pending<'_, '_>, corners: &Corners) -> Option<[(Corner, Corner); 2]> {
+    let turned = seam.phrase.says("reversed");
+    let (a, b) = (ways(&seam.a, corners), ways(&seam.b, corners));
+    let b = if turned { b } else { (b.1, b.0) };
+    let left = match (a.0 && b.0, a.1 && b.1) {
+        (true, false) => true,
+        (false, true) => false,
+        _ => return None,
+    };
+    let ends = |row: &[Element], left: bool| {
+        Some((row.first()?.walked(left).0, row.last()?.walked(left).1))
+    };
+    let ((start, end), (from, to)) = (ends(&seam.a, left)?, ends(&seam.b, left == turned)?);
+    Some([(start, from), (end, to)])
+}
+
 impl<'t> Evaluator<'t> {
     /// Makes the seams of a garment; false if one of them is wrong.
     pub(super) fn sew(&mut self, phrases: &[Phrase<'t>], making: &mut Making) -> bool {
@@ -89,6 +114,22 @@ impl<'t> Evaluator<'t> {
                 let (start, end) = a.walked(true);
                 let (from, to) = b.walked(seam.phrase.says("reversed"));
                 corners.links.extend([(start, from), (end, to)]);
+            }
+        }
+        // Rows that join one way only know theirs then, and join the corners of further rows.
+        let mut rows: Vec<&Pending<'_, 't>> =
+            pending.iter().filter(|seam| seam.a.len() > 1 || seam.b.len() > 1).collect();
+        loop {
+            let before = rows.len();
+            rows.retain(|seam| match links(seam, &corners) {
+                Some(more) => {
+                    corners.links.extend(more);
+                    false
+                }
+                None => true,
+            });
+            if rows.len() == before {
+                break;
             }
         }
         let mut sewn: Vec<(PanelRun, Span)> = Vec::new();
@@ -238,10 +279,7 @@ impl<'t> Evaluator<'t> {
 
     /// Whether the cloth of side a lies to the left when it is walked as named.
     fn direction(&mut self, seam: &Pending<'_, 't>, corners: &Corners) -> Option<bool> {
-        let ways = |row: &[Element]| match row {
-            [_] => (true, true),
-            row => (corners.chains(row, true), corners.chains(row, false)),
-        };
+        let ways = |row: &[Element]| ways(row, corners);
         for (row, span) in [(&seam.a, seam.spans.0), (&seam.b, seam.spans.1)] {
             if ways(row) == (false, false) {
                 let gap = row

@@ -3,13 +3,19 @@
 /// A file of the library: its name in `use`, and its text.
 const FILES: &[(&str, &str)] = &[
     ("std::ang", include_str!("../../stdlib/ang.garment")),
+    ("std::bodice", include_str!("../../stdlib/bodice.garment")),
     ("std::body", include_str!("../../stdlib/body.garment")),
+    ("std::collar", include_str!("../../stdlib/collar.garment")),
     ("std::color", include_str!("../../stdlib/color.garment")),
     ("std::fabric", include_str!("../../stdlib/fabric.garment")),
+    ("std::indian", include_str!("../../stdlib/indian.garment")),
     ("std::kath", include_str!("../../stdlib/kath.garment")),
     ("std::knit", include_str!("../../stdlib/knit.garment")),
     ("std::motif", include_str!("../../stdlib/motif.garment")),
     ("std::padar", include_str!("../../stdlib/padar.garment")),
+    ("std::skirt", include_str!("../../stdlib/skirt.garment")),
+    ("std::sleeve", include_str!("../../stdlib/sleeve.garment")),
+    ("std::trousers", include_str!("../../stdlib/trousers.garment")),
     ("std::weave", include_str!("../../stdlib/weave.garment")),
     ("std::yarn", include_str!("../../stdlib/yarn.garment")),
 ];

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+mod blocks;
 mod errors;
 mod garments;
 mod library;
