@@ -38,6 +38,8 @@ pub mod body;
 
 pub mod drape;
 
+pub mod laboratory;
+
 pub mod render;
 
 pub mod export;

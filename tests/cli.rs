@@ -502,3 +502,26 @@ fn a_fabric_is_shown_in_the_units_of_its_instruments() {
     let (end, _, why) = said(&["fabric", "show", "woool"]);
     assert!(end == 2 && why.contains("did you mean `wool`?"), "{why}");
 }
+
+#[test]
+fn a_fabric_is_tested_as_in_a_laboratory() {
+    let folder = tempfile::tempdir().unwrap();
+    let call = ["fabric", "test", "cantilever", "wool", "--resolution", "4mm", "--json"];
+    let output = darzi(folder.path(), &call);
+    assert_eq!(code(&output), 0, "{}", told(&output));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    for strip in json["strips"].as_array().unwrap() {
+        let [found, given] = ["rigidity", "given"].map(|key| strip[key].as_f64().unwrap());
+        // Coarser than by itself: some nine cells of overhang.
+        assert!((found / given - 1.0).abs() < 0.05, "{strip}");
+    }
+    let wrong = ["fabric", "test", "cusick", "wool", "--specimen", "31cm"];
+    let output = darzi(folder.path(), &wrong);
+    assert!(
+        code(&output) == 2 && told(&output).contains("24cm, 30cm or 36cm"),
+        "{}",
+        told(&output)
+    );
+    let wrong = ["fabric", "test", "cantilever", "wool", "-o", "wool.jpg"];
+    assert_eq!(code(&darzi(folder.path(), &wrong)), 2);
+}

@@ -4,6 +4,7 @@ mod convert;
 mod list;
 mod measure;
 mod show;
+mod test;
 
 use super::project::Project;
 use super::{MessageFormat, Stop};
@@ -26,6 +27,8 @@ enum Command {
     Show(show::Show),
     /// Rows of a KES-F or FAST sheet in all units
     Convert(convert::Convert),
+    /// A test of the laboratory on the fabric as it is worked out
+    Test(test::Test),
 }
 
 impl Fabric {
@@ -34,6 +37,7 @@ impl Fabric {
             Command::List(it) => it.run(),
             Command::Show(it) => it.run(),
             Command::Convert(it) => it.run(),
+            Command::Test(it) => it.run(),
         }
     }
 }
