@@ -222,12 +222,10 @@ impl<'a> Workshop<'a> {
         if manner.layers {
             let sewn = self.sewing.pairs.iter().map(|s| s.knots);
             let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, sewn, &start));
-            if layers.any_tangled() {
-                layers.find_tangles(&start);
-                for (knot, pull, block) in layers.untangle(&self.cloth, &start) {
-                    base.0[knot as usize] += block;
-                    base.1[knot as usize] += pull;
-                }
+            layers.look_for_tangles(&start);
+            for (knot, pull, block) in layers.untangle(&self.cloth, &start) {
+                base.0[knot as usize] += block;
+                base.1[knot as usize] += pull;
             }
             touches = layers.touch(&self.cloth, &start, &ahead, &slide);
         }

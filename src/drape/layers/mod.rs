@@ -53,6 +53,11 @@ const KEEP: f64 = 0.2;
 const SOFT: usize = 6;
 const HARD: usize = 40;
 
+/// Steps in which faces that cut each other must become fewer, or they are left alone; and the steps
+/// after which they are then looked for again.
+const PATIENCE: u32 = 100;
+const SELDOM: u32 = 10;
+
 /// Slide in a step from which friction is full, m.
 const PLAY: f64 = 2.0e-5;
 
@@ -87,6 +92,9 @@ pub struct Layers {
     tangled: Vec<bool>,
     /// Pairs of faces that cut each other.
     cuts: Vec<[[u32; 3]; 2]>,
+    /// The fewest there were, and how often they have been looked for since.
+    fewest: usize,
+    tried: u32,
     /// Knots of seams still open: their edges must come together.
     open: Vec<bool>,
 }
@@ -123,6 +131,7 @@ impl Layers {
             widest: SLACK * cloth.cell,
             tangled: vec![false; cloth.knots()],
             open: vec![false; cloth.knots()],
+            fewest: usize::MAX,
             ..Layers::default()
         };
         for knot in sewn.flatten() {
@@ -132,8 +141,18 @@ impl Layers {
         layers
     }
 
+    /// Looks again for faces that cut each other, if any did; seldom where they would not come free.
+    pub fn look_for_tangles(&mut self, x: &[V]) {
+        if self.any_tangled() {
+            self.tried += 1;
+            if self.tried <= PATIENCE || self.tried.is_multiple_of(SELDOM) {
+                self.find_tangles(x);
+            }
+        }
+    }
+
     /// Finds the faces that cut each other.
-    pub fn find_tangles(&mut self, x: &[V]) {
+    fn find_tangles(&mut self, x: &[V]) {
         let still = vec![V::zeros(); x.len()];
         let reach: Vec<Extent> = x.iter().map(|x| Extent::of_way(x, &V::zeros(), 0.0)).collect();
         self.tree.fit(&self.faces, x, &still, &reach);
@@ -155,6 +174,13 @@ impl Layers {
         for k in cut.iter().flatten().flatten() {
             self.tangled[*k as usize] = true;
         }
+        if cut.len() < self.fewest {
+            self.fewest = cut.len();
+            self.tried = 0;
+        }
+        if cut.is_empty() {
+            self.fewest = usize::MAX;
+        }
         self.cuts = cut;
         // The tree stands for these places now.
         self.at.clear();
@@ -162,12 +188,15 @@ impl Layers {
     }
 
     /// Whether any faces cut each other when last looked through.
-    pub fn any_tangled(&self) -> bool {
+    fn any_tangled(&self) -> bool {
         !self.cuts.is_empty()
     }
 
-    /// Pulls that draw faces which cut each other apart.
+    /// Pulls that draw faces which cut each other apart; none any more where they did not help.
     pub fn untangle(&self, cloth: &Cloth, x: &[V]) -> Vec<Pull> {
+        if self.tried > PATIENCE {
+            return Vec::new();
+        }
         let stiffness = |k: u32| STIFFNESS * cloth.area[k as usize];
         untangle::pulls(&self.cuts, x, stiffness, |k| self.apart[k as usize])
     }
