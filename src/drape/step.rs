@@ -82,6 +82,7 @@ pub struct Stuck;
 
 /// A cloth in movement.
 pub struct Workshop<'a> {
+    compiled: &'a Compiled,
     /// Its mechanics.
     pub cloth: Cloth,
     /// Places of the knots, m.
@@ -114,7 +115,7 @@ impl<'a> Workshop<'a> {
     /// Takes up a cloth with the given welds; particles are at `positions` and at rest. A knot
     /// of several particles lies in their middle.
     pub fn new(
-        compiled: &Compiled,
+        compiled: &'a Compiled,
         surfaces: &[Surface],
         skin: &'a dyn Skin,
         weld: Weld,
@@ -134,13 +135,13 @@ impl<'a> Workshop<'a> {
         let layout = Layout::new(compiled, &weld);
         let mut cloth = Cloth::new(compiled, weld);
         let holds = Holds::new(compiled, surfaces, &cloth, &x);
-        let mut system = System::new(layout, &mut cloth, &open, &holds.held);
+        let system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
-        system.lay_coarse(compiled, &cloth, &open);
         let mut v = vec![Vector3::zeros(); x.len()];
         let mut contact = Contact::new(&cloth, skin, &x);
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
+            compiled,
             system,
             iterations: 0,
             last: vec![Vector3::zeros(); x.len()],
@@ -244,9 +245,9 @@ impl<'a> Workshop<'a> {
                 let more: Vec<_> =
                     touches.diagonal().map(|(k, block)| (slots[k as usize], block)).collect();
                 self.system.factor(more.into_iter());
-                if self.system.coarse.is_due(self.iterations) {
-                    self.system.refresh_coarse(&term);
-                }
+                let sewn = self.sewing.pairs.iter().map(|s| s.knots);
+                let cloth = (self.compiled, &self.cloth);
+                self.system.refresh_coarse(cloth, sewn, &term, self.iterations);
             }
             let (solution, taken) = self.system.solve(&term, &b, (&guess, &fall), manner.aim);
             iterations += taken;

@@ -9,7 +9,7 @@ use crate::garment::seam::PinTarget;
 use crate::mesh::compiled::{Compiled, MeshPin};
 use nalgebra::Vector3;
 
-fn shop<'a>(compiled: &Compiled, skin: &'a dyn Skin, x: &[Vector3<f64>]) -> Workshop<'a> {
+fn shop<'a>(compiled: &'a Compiled, skin: &'a dyn Skin, x: &[Vector3<f64>]) -> Workshop<'a> {
     let weld = Weld::new(compiled.particles.len(), std::iter::empty());
     Workshop::new(compiled, &[], skin, weld, x)
 }

@@ -203,7 +203,7 @@ mod tests {
     #[cfg(not(windows))]
     fn a_file_belongs_to_the_nearest_folder_of_the_workspace() {
         let folders = Folders {
-            workspace: vec!["/work".into(), "/work/skirts".into()],
+            workspace: vec!["/home".into(), "/home/skirts".into()],
             library: Some("/cache/library".into()),
         };
         let place = |uri| {
@@ -211,10 +211,10 @@ mod tests {
             (folder.map(|folder| folder.display().to_string()), path)
         };
         let some = |text: &str| Some(text.to_owned());
-        assert_eq!(place("file:///work/a.garment"), (some("/work"), "a.garment".into()));
+        assert_eq!(place("file:///home/a.garment"), (some("/home"), "a.garment".into()));
         assert_eq!(
-            place("file:///work/skirts/x/../b.garment"),
-            (some("/work/skirts"), "b.garment".into())
+            place("file:///home/skirts/x/../b.garment"),
+            (some("/home/skirts"), "b.garment".into())
         );
         assert_eq!(place("file:///else/c.garment"), (some("/else"), "c.garment".into()));
         assert_eq!(place("file:///cache/library/fabric.garment"), (None, "std::fabric".into()));

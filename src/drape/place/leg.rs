@@ -6,8 +6,7 @@
 //! would reach down to the feet begin pushed up above them, in folds round the outside.
 
 use super::section::{Ring, Sections};
-use super::{Wrapped, centre, drawing};
-use crate::body::surface::Surface;
+use super::{Wrapped, by_layer, centre, drawing};
 use crate::garment::scene::Side;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Point3;
@@ -44,15 +43,7 @@ pub(super) fn is_leg(wrapped: &Wrapped) -> bool {
 
 /// Lays the pieces of all legs, one body and one layer of cloth after the other.
 pub(super) fn wrap(compiled: &Compiled, legs: &[&Wrapped], positions: &mut [Point3<f64>]) {
-    let mut groups: Vec<(*const Surface, i32, Vec<&Wrapped>)> = Vec::new();
-    for &leg in legs {
-        let (body, layer) = (std::ptr::from_ref(leg.body), leg.panel(compiled).layer);
-        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
-            Some((_, _, members)) => members.push(leg),
-            None => groups.push((body, layer, vec![leg])),
-        }
-    }
-    for (_, _, members) in groups {
+    for members in by_layer(compiled, legs) {
         wrap_together(compiled, &members, positions);
     }
 }
@@ -230,7 +221,7 @@ impl<'a> Piece<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::surface::{Landmark, SurfaceKind};
+    use crate::body::surface::{Landmark, Surface, SurfaceKind};
 
     /// A leg of 80 cm from the crotch to the floor, whose ankle is at 8 cm.
     fn body() -> Surface {

@@ -111,6 +111,22 @@ impl Wrapped<'_> {
     }
 }
 
+/// The panels of each body and each of its layers of cloth, in their order.
+fn by_layer<'w, 'a>(
+    compiled: &Compiled,
+    panels: &[&'w Wrapped<'a>],
+) -> impl Iterator<Item = Vec<&'w Wrapped<'a>>> {
+    let mut groups: Vec<(*const Surface, i32, Vec<&Wrapped>)> = Vec::new();
+    for &panel in panels {
+        let (body, layer) = (std::ptr::from_ref(panel.body), panel.panel(compiled).layer);
+        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
+            Some((_, _, members)) => members.push(panel),
+            None => groups.push((body, layer, vec![panel])),
+        }
+    }
+    groups.into_iter().map(|(_, _, members)| members)
+}
+
 /// Middle of a landmark; a body's own middle where it has no such place.
 fn centre(body: &Surface, landmark: &str) -> Point3<f64> {
     match body.landmarks.get(landmark) {

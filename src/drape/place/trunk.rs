@@ -1,7 +1,7 @@
 //! Panels wrapped round the trunk: fronts, backs and tubes.
 
 use super::section::{Ring, Sections};
-use super::{Wrapped, drawing};
+use super::{Wrapped, by_layer, drawing};
 use crate::garment::scene::Side;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Point3;
@@ -13,16 +13,7 @@ const ROW: f64 = 0.01;
 
 /// Wraps the panels, one body and one layer of cloth after the other.
 pub(super) fn wrap(compiled: &Compiled, panels: &[&Wrapped], positions: &mut [Point3<f64>]) {
-    let mut groups: Vec<(*const crate::body::surface::Surface, i32, Vec<&Wrapped>)> = Vec::new();
-    for &panel in panels {
-        let layer = panel.panel(compiled).layer;
-        let body = std::ptr::from_ref(panel.body);
-        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
-            Some((_, _, members)) => members.push(panel),
-            None => groups.push((body, layer, vec![panel])),
-        }
-    }
-    for (_, _, members) in groups {
+    for members in by_layer(compiled, panels) {
         wrap_together(compiled, &members, positions);
     }
 }

@@ -17,6 +17,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Most nodes: the factor has the square of it.
 const MOST: usize = 160;
 
+/// More nodes than this, of very many small pieces, are not worth their factor: there is no coarse
+/// level then.
+const TOO_MANY: usize = 2 * MOST;
+
 /// Least distance of nodes, in cells.
 const LEAST: f64 = 6.0;
 
@@ -32,6 +36,8 @@ const KEPT: usize = 10;
 /// The coarse level of a cloth.
 #[derive(Clone, Debug, Default)]
 pub struct Coarse {
+    /// Whether it has been laid over the cloth.
+    laid: bool,
     follows: Follows,
     /// Nodes whose neighbourhoods do not meet, colour by colour, with each slot's one of them.
     colours: Vec<Colour>,
@@ -130,6 +136,9 @@ impl Coarse {
             })
             .collect();
         let nodes = nodes as usize;
+        if nodes > TOO_MANY {
+            return Coarse { laid: true, ..Coarse::default() };
+        }
         let mut lists: Vec<(u32, Vec<(u32, f32)>)> = Vec::new();
         let mut support: Vec<Vec<(u32, f32)>> = vec![Vec::new(); nodes];
         for (knot, share) in shares.iter().enumerate() {
@@ -189,6 +198,7 @@ impl Coarse {
             colour.moved.extend(moved);
         }
         Coarse {
+            laid: true,
             follows,
             colours: colours.into_iter().map(|c| c.0).collect(),
             nodes,
@@ -199,10 +209,15 @@ impl Coarse {
         }
     }
 
+    /// Whether it has been laid over the cloth: a cloth that is solved without effort goes without.
+    pub fn is_laid(&self) -> bool {
+        self.laid
+    }
+
     /// Counts a step, the last of which took some iterations; whether the level is to be made anew.
     pub fn is_due(&mut self, iterations: usize) -> bool {
         self.age += 1;
-        iterations > EFFORT && (!self.ready || self.age >= KEPT)
+        iterations > EFFORT && (!self.laid || self.age >= KEPT)
     }
 
     /// Makes the matrix of the nodes and factors it. `multiply` gives the product of the system's

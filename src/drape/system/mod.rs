@@ -5,7 +5,7 @@
 //! Baraff and Witkin 1998 for the step; Hestenes and Stiefel 1952 for the gradients. Threads as
 //! preconditioner follow from the grid: the stiff directions of woven cloth are its lines.
 
-pub mod coarse;
+mod coarse;
 mod gradients;
 mod sweep;
 
@@ -88,7 +88,7 @@ pub struct System {
     p: Three,
     q: Three,
     /// Its coarse level.
-    pub coarse: Coarse,
+    coarse: Coarse,
 }
 
 fn three(n: usize) -> Three {
@@ -150,19 +150,37 @@ impl System {
     }
 
     /// Lays the coarse level over the cloth.
-    pub fn lay_coarse(&mut self, compiled: &Compiled, cloth: &Cloth, sewn: &[[u32; 2]]) {
+    fn lay_coarse(
+        &mut self,
+        compiled: &Compiled,
+        cloth: &Cloth,
+        sewn: impl Iterator<Item = [u32; 2]>,
+    ) {
         let springs = cloth.springs.iter().map(|s| s.ends.to_vec());
         let cells = cloth.cells.iter().map(|c| c.corners.to_vec());
         let triangles = cloth.triangles.iter().map(|t| t.corners.to_vec());
         let folds = cloth.folds.iter().map(|f| f.knots[..f.count].to_vec());
-        let sewn = sewn.iter().map(|s| s.to_vec());
+        let sewn = sewn.map(|s| s.to_vec());
         let near = springs.chain(cells).chain(triangles).chain(folds).chain(sewn);
         let slot = &self.grid.layout.slot;
         self.coarse = Coarse::new(compiled, &cloth.weld, slot, &self.free, near);
     }
 
-    /// Brings the coarse level up to the matrix in hand, `extra` included.
-    pub fn refresh_coarse(&mut self, extra: &dyn Extra) {
+    /// Brings the coarse level up to the matrix in hand, `extra` included, if that is worth it after
+    /// a step of so many iterations; `sewn` are pairs of open seams.
+    pub fn refresh_coarse(
+        &mut self,
+        (compiled, cloth): (&Compiled, &Cloth),
+        sewn: impl Iterator<Item = [u32; 2]>,
+        extra: &dyn Extra,
+        iterations: usize,
+    ) {
+        if !self.coarse.is_due(iterations) {
+            return;
+        }
+        if !self.coarse.is_laid() {
+            self.lay_coarse(compiled, cloth, sewn);
+        }
         let mut coarse = std::mem::take(&mut self.coarse);
         let (mut p, mut q) = (three(self.free.len()), three(self.free.len()));
         coarse.refresh(self.arch, [&mut p, &mut q], extra, |p, q| {
