@@ -47,6 +47,7 @@ use facts::{Facts, Notes};
 pub use function::functions;
 use item::{Item, ItemId};
 use module::{Asked, Loaded};
+pub use place::places;
 pub use read::kinds;
 use scope::{Binding, BindingId, Scope, ScopeId, Waiting};
 use std::collections::{BTreeMap, BTreeSet};

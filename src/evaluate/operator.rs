@@ -6,6 +6,7 @@ use super::value::{Value, Vector};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{BinaryOp, Expr};
 use crate::units::{Dimension, Quantity};
+use std::cmp::Ordering;
 
 impl<'t> Evaluator<'t> {
     /// A value as a quantity; measures of a body are lengths. Others are told.
@@ -155,7 +156,7 @@ impl<'t> Evaluator<'t> {
                 let Some(dimension) = dimension else {
                     return self.mismatch(op, op_span, (a, a_span), (b, b_span));
                 };
-                let order = a.value.partial_cmp(&b.value);
+                let order = order(a.value, b.value);
                 match op {
                     BinaryOp::Plus => {
                         self.finite(Quantity::new(a.value + b.value, dimension), span)
@@ -245,8 +246,11 @@ impl<'t> Evaluator<'t> {
         let sign = match op {
             BinaryOp::Plus => 1.0,
             BinaryOp::Minus => -1.0,
-            BinaryOp::Equal => return Value::Bool(a.parts == b.parts),
-            BinaryOp::Unequal => return Value::Bool(a.parts != b.parts),
+            BinaryOp::Equal | BinaryOp::Unequal => {
+                let mut pairs = a.parts.iter().zip(&b.parts);
+                let same = pairs.all(|(a, b)| order(*a, *b) == Some(Ordering::Equal));
+                return Value::Bool(same == (op == BinaryOp::Equal));
+            }
             _ => {
                 self.tell(
                     Diagnostic::new("E0304", "points can be added, subtracted and compared only")
@@ -288,6 +292,18 @@ impl<'t> Evaluator<'t> {
             self.finite(Quantity::number(f64::NAN), left.to(right))
         }
     }
+}
+
+/// How close two values are taken to be one, as a share of both: `3/8in` is `9.525mm`, whatever
+/// the last bit of their products with the units says.
+const SAME: f64 = 1e-12;
+
+/// Which of two values is greater, if they are not the same.
+fn order(a: f64, b: f64) -> Option<Ordering> {
+    if (a - b).abs() <= SAME * (a.abs() + b.abs()) {
+        return Some(Ordering::Equal);
+    }
+    a.partial_cmp(&b)
 }
 
 /// Marks on panels are points where numbers are wanted.
