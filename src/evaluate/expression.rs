@@ -162,10 +162,20 @@ impl<'t> Evaluator<'t> {
             },
             Err(part) => {
                 let label = self.meant(&part, units::known());
+                // `600/n`: a quotient written as `600/m` is.
+                let help = match name.text.strip_prefix('/') {
+                    Some(divisor) => format!(
+                        "`/` against a number begins a unit; a quotient stands between blanks, `… / {divisor}`"
+                    ),
+                    None => {
+                        "lengths are `mm`, `cm`, `m`, `in`; angles `deg`; masses per area `g/m2`"
+                            .to_owned()
+                    }
+                };
                 self.tell(
                     Diagnostic::new("E0307", format!("there is no unit `{part}`"))
                         .at(name.span, label)
-                        .help("lengths are `mm`, `cm`, `m`, `in`; angles `deg`; masses per area `g/m2`"),
+                        .help(help),
                 );
                 Value::Poison
             }

@@ -72,22 +72,22 @@ fn head(code: &str) -> &str {
     &code[..end.unwrap_or(code.len())]
 }
 
-/// Where a page explains a word: the anchor of the heading above. Words of the table stand at the
-/// head of what is written, those of the language (`is`) anywhere in it.
-fn explained(page: &Page, word: &str, is: fn(&str, &str) -> bool) -> Option<String> {
+/// Where a page explains a word: the anchors of the headings above. Words of the table stand at
+/// the head of what is written, those of the language (`is`) anywhere in it.
+fn explained(page: &Page, word: &str, is: fn(&str, &str) -> bool) -> Vec<String> {
+    let mut found = Vec::new();
     let mut above = String::new();
     for (_, line) in page.prose() {
         let cell = line.strip_prefix("| ").and_then(|row| row.split(" |").next());
-        if let Some(heading) = line.strip_prefix('#') {
+        let heading = line.strip_prefix('#');
+        if let Some(heading) = heading {
             above = anchor(heading.trim_start_matches('#').trim());
-            if code(heading).any(|code| is(code, word)) {
-                return Some(above);
-            }
-        } else if cell.is_some_and(|cell| code(cell).any(|code| is(code, word))) {
-            return Some(above);
+        }
+        if heading.or(cell).is_some_and(|text| code(text).any(|code| is(code, word))) {
+            found.push(above.clone());
         }
     }
-    None
+    found
 }
 
 fn begins(code: &str, word: &str) -> bool {
@@ -98,13 +98,23 @@ fn holds(code: &str, word: &str) -> bool {
     code.split(|sign: char| !(sign.is_alphanumeric() || sign == '_')).any(|part| part == word)
 }
 
-/// The pages of a kind of block that explain a word, as links.
-fn links(pages: &[Page], word: &str, among: &[&str], is: fn(&str, &str) -> bool) -> Vec<String> {
+/// The pages that explain a word, as links; of several places on a page the one below a heading
+/// of its kind of block, else the first.
+fn links(
+    pages: &[Page],
+    word: &str,
+    among: &[&str],
+    kind: &str,
+    is: fn(&str, &str) -> bool,
+) -> Vec<String> {
+    let kind = kind.split(' ').next().unwrap_or("").to_lowercase();
     among
         .iter()
         .filter_map(|wanted| pages.iter().find(|page| name(page) == *wanted))
         .filter_map(|page| {
-            let at = explained(page, word, is)?;
+            let found = explained(page, word, is);
+            let own = found.iter().find(|anchor| anchor.split('-').any(|part| part == kind));
+            let at = own.or(found.first())?;
             Some(format!("[{0}]({0}.md#{at})", name(page)))
         })
         .collect()
@@ -144,7 +154,7 @@ pub fn unexplained(pages: &[Page]) -> Vec<String> {
         }
         for word in table.words {
             let of = table.kind.title();
-            if links(pages, word.name, among, begins).is_empty() {
+            if links(pages, word.name, among, table.kind.noun(), begins).is_empty() {
                 wrong.push(format!("`{}` of {of} is explained in none of {among:?}", word.name));
             }
             for clause in inner(word).into_iter().filter(|clause| !spoken.contains(clause)) {
@@ -154,7 +164,7 @@ pub fn unexplained(pages: &[Page]) -> Vec<String> {
         }
     }
     let mut want = |word: &str, page: &str| {
-        if find(page).is_none_or(|page| explained(page, word, holds).is_none()) {
+        if find(page).is_none_or(|page| explained(page, word, holds).is_empty()) {
             wrong.push(format!("`{word}` is not explained in {page}.md"));
         }
     };
@@ -176,17 +186,18 @@ pub fn index(pages: &[Page]) -> String {
             let usage = word.usage().replace('|', "\\|");
             let row = (word.name, usage, word.help.replace('|', "\\|"));
             let (of, links_of) = rows.entry(row).or_default();
-            of.push(table.kind.noun());
-            links_of.extend(links(pages, word.name, pages_of(table.kind), begins));
+            let kind = table.kind.noun();
+            of.push(kind);
+            links_of.extend(links(pages, word.name, pages_of(table.kind), kind, begins));
         }
     }
     for (word, page) in LANGUAGE {
-        let links = links(pages, word, &[page], holds);
+        let links = links(pages, word, &[page], "", holds);
         let row = (*word, (*word).to_owned(), "a word of the language itself".to_owned());
         rows.insert(row, (vec!["any block"], links));
     }
     for (function, usage) in functions() {
-        let links = links(pages, function, &["values"], begins);
+        let links = links(pages, function, &["values"], "", begins);
         let row = (function, usage.to_owned(), "a function".to_owned());
         rows.entry(row).or_insert((vec!["value"], links));
     }

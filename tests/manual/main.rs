@@ -143,6 +143,9 @@ fn tried(page: &Page, frames: &BTreeMap<String, String>) -> (Vec<String>, String
             if let Some(line) = foreign_line(&block.text, file) {
                 wrong.push(format!("{place}: `{line}` is not in {file}, or not in this order"));
             }
+            if format(FileId(0), &block.text).as_deref() != Ok(&block.text) {
+                wrong.push(format!("{place} is not laid out"));
+            }
             continue;
         }
         let files: Vec<&Block> = page.blocks.iter().filter(|other| other.file.is_some()).collect();
@@ -166,11 +169,11 @@ fn tried(page: &Page, frames: &BTreeMap<String, String>) -> (Vec<String>, String
             continue;
         }
         if let Some(listing) = page.listing(number) {
-            let report = report.trim_end();
+            let report = format!("{report}`darzi explain {}` says more", block.codes[0]);
             if listing.text.trim_end() != report {
                 wrong.push(format!("{place}: the listing is another; it should be\n{report}"));
             }
-            renewals.push((listing.line, listing.text.lines().count(), report.to_owned()));
+            renewals.push((listing.line, listing.text.lines().count(), report));
         }
     }
     for (line, count, text) in renewals.into_iter().rev() {
