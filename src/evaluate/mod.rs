@@ -47,7 +47,6 @@ use facts::{Facts, Notes};
 pub use function::functions;
 use item::{Item, ItemId};
 use module::{Asked, Loaded};
-pub use place::places;
 pub use read::kinds;
 use scope::{Binding, BindingId, Scope, ScopeId, Waiting};
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,6 +78,11 @@ const DEPTH: usize = 3_000;
 
 /// Stack for that depth, in bytes.
 const STACK: usize = 512 << 20;
+
+/// Names of the places of every body, as a text writes them: `waist`, `left_knee`.
+pub fn places() -> impl Iterator<Item = String> {
+    place::places()
+}
 
 /// Works out all garments and scenes of a file. Where a diagnostic is an error, the garment it
 /// belongs to is left out. Diagnostics stand [in the order of the text](in_order).

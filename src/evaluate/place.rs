@@ -79,7 +79,7 @@ impl Landmark {
 }
 
 /// Names of the places of every body, as a text writes them.
-pub fn places() -> impl Iterator<Item = String> {
+pub(super) fn places() -> impl Iterator<Item = String> {
     let single = SINGLE.iter().map(|place| (*place).to_owned());
     let sided = SIDED.iter().filter(|place| **place != "hip").flat_map(|place| {
         ["", "left_", "right_"].into_iter().map(move |side| format!("{side}{place}"))
