@@ -4,7 +4,7 @@
 //! heading, of one of the pages of its kind of block.
 
 use crate::page::{Page, anchor};
-use darzi::evaluate::words::{Element, Kind, Word, tables};
+use darzi::evaluate::words::{Element, Form, Kind, Word, tables};
 use darzi::evaluate::{functions, kinds, places};
 use std::collections::BTreeMap;
 
@@ -136,6 +136,25 @@ fn inner(word: &Word) -> Vec<&'static str> {
     found
 }
 
+/// The default that the help of a property ends with: `side of the cells =8mm`.
+fn default_of(word: &Word) -> Option<&'static str> {
+    let (_, rest) = word.help.split_once(" =").filter(|_| word.form == Form::Property)?;
+    if rest.starts_with(' ') {
+        return None;
+    }
+    let end = if rest.starts_with('(') { rest.find(')')? + 1 } else { rest.len() };
+    Some(rest[..end].split([';', ':']).next().unwrap_or(rest))
+}
+
+/// Whether a row of a word says its default.
+fn says_default(page: &Page, word: &str, default: &str) -> bool {
+    page.prose().any(|(_, line)| {
+        let cell = line.strip_prefix("| ").and_then(|row| row.split(" |").next());
+        cell.is_some_and(|cell| code(cell).any(|code| begins(code, word)))
+            && line.replace('`', "").contains(default)
+    })
+}
+
 /// Everything the program knows that the manual does not explain.
 pub fn unexplained(pages: &[Page]) -> Vec<String> {
     let mut wrong = Vec::new();
@@ -156,6 +175,14 @@ pub fn unexplained(pages: &[Page]) -> Vec<String> {
             let of = table.kind.title();
             if links(pages, word.name, among, table.kind.noun(), begins).is_empty() {
                 wrong.push(format!("`{}` of {of} is explained in none of {among:?}", word.name));
+            }
+            if let Some(default) = default_of(word)
+                && !among
+                    .iter()
+                    .filter_map(|page| find(page))
+                    .any(|page| says_default(page, word.name, default))
+            {
+                wrong.push(format!("the default of `{}` of {of} is {default}", word.name));
             }
             for clause in inner(word).into_iter().filter(|clause| !spoken.contains(clause)) {
                 wrong

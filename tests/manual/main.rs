@@ -1,7 +1,7 @@
 //! The manual tells the truth. Every `garment` block of the documentation is read and cut: whole
 //! texts and fragments in their frames give no messages, those with codes give these codes, and a
-//! listing below them is what the program prints. Links lead somewhere, and every word of the
-//! language is explained.
+//! listing below them is what the program prints. Links lead somewhere, calls of the program are
+//! known, and every word of the language is explained.
 //!
 //! Behind `garment` at the head of a block may stand: codes that it gives; `in NAME`, the frame in
 //! which it is read, and `frame NAME` at a frame; the path of a file that the page's other texts
@@ -11,6 +11,7 @@
 
 #![allow(clippy::disallowed_methods)]
 
+mod commands;
 mod index;
 mod page;
 
@@ -225,6 +226,12 @@ fn links_lead_somewhere() {
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn calls_that_are_shown_are_known() {
+    let wrong = commands::unknown(&documentation());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
