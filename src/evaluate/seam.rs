@@ -372,7 +372,8 @@ impl<'t> Evaluator<'t> {
                 units::length(tolerance)
             )
         };
-        let ease = libm::ceil((long - short) * 1e3);
+        // Whole millimetres upwards; 2 cm stay 2 cm though their last bit is too much.
+        let ease = libm::ceil((long - short) * 1e3 - 1e-6);
         let follow = match (seam.a.as_slice(), seam.b.as_slice()) {
             ([a], [b]) => format!(
                 "let one follow the other: `fit NAME in LOW..HIGH until {}.length = {}.length`; ",

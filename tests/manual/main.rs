@@ -4,19 +4,23 @@
 //! known, and every word of the language is explained.
 //!
 //! Behind `garment` at the head of a block may stand: codes that it gives; `in NAME`, the frame in
-//! which it is read, and `frame NAME` at a frame; the path of a file that the page's other texts
-//! may use; `of PATH` at an excerpt of a file; `--set NAME=VALUE` and `--for SIZE`.
+//! which it is read, and `frame NAME` at a frame; `picture NAME`, the drawing of its pieces; the
+//! path of a file that the page's other texts may use; `of PATH` at an excerpt of a file;
+//! `--set NAME=VALUE` and `--for SIZE`.
 //!
 //! After a change of messages or words: `UPDATE=1 cargo test --test manual`.
 
 #![allow(clippy::disallowed_methods)]
 
 mod commands;
+mod drawing;
 mod index;
 mod page;
 
 use darzi::diagnostic::{Diagnostic, FileId, codes, render};
 use darzi::evaluate::{Options, evaluate};
+use darzi::garment::Garment;
+use darzi::garment::panel::Panel;
 use darzi::mesh;
 use darzi::syntax::format::format;
 use darzi::world::{Memory, World};
@@ -92,8 +96,8 @@ fn framed(block: &Block, frames: &BTreeMap<String, String>) -> String {
     text
 }
 
-/// What the program says of a text, with the files of its page at hand.
-fn told(block: &Block, text: &str, files: &[&Block]) -> (Memory, Vec<Diagnostic>) {
+/// What the program makes of a text and says of it, with the files of its page at hand.
+fn told(block: &Block, text: &str, files: &[&Block]) -> (Memory, Vec<Garment>, Vec<Diagnostic>) {
     let name = block.file.as_deref().unwrap_or("main.garment");
     let others = files.iter().filter_map(|other| Some((other.file.as_deref()?, &*other.text)));
     let others = others.filter(|(other, _)| *other != name);
@@ -106,7 +110,7 @@ fn told(block: &Block, text: &str, files: &[&Block]) -> (Memory, Vec<Diagnostic>
         let options = mesh::Options { atlas: false, ..mesh::Options::default() };
         told.extend(mesh::compile(garment, &options).err().unwrap_or_default());
     }
-    (world, told)
+    (world, garments, told)
 }
 
 /// The block of a formatted text that stands in the frame's place, without its indentation.
@@ -127,6 +131,19 @@ fn foreign_line(excerpt: &str, file: &str) -> Option<String> {
     let mut lines = text.lines().map(str::trim);
     let mut wanted = excerpt.lines().map(str::trim).filter(|line| !line.is_empty());
     wanted.find(|wanted| !lines.any(|line| line == *wanted)).map(str::to_owned)
+}
+
+/// Whether a page shows the drawing of a text as it is now.
+fn drawn(page: &Page, name: &str, made: &str) -> Option<String> {
+    let file = format!("{}/{name}.svg", drawing::FOLDER);
+    if update() {
+        std::fs::write(root().join(&file), made).unwrap();
+    }
+    if std::fs::read_to_string(root().join(&file)).unwrap_or_default() != made {
+        return Some(format!("{}: {file} is another, `UPDATE=1` draws it anew", page.path));
+    }
+    let shown = page.text.contains(&format!("](pictures/{name}.svg)"));
+    (!shown).then(|| format!("{}: {file} is not shown", page.path))
 }
 
 /// Tries the blocks of a page: what is wrong with it, and the page with its listings and the layout
@@ -151,11 +168,15 @@ fn tried(page: &Page, frames: &BTreeMap<String, String>) -> (Vec<String>, String
         }
         let files: Vec<&Block> = page.blocks.iter().filter(|other| other.file.is_some()).collect();
         let text = framed(block, frames);
-        let (world, said) = told(block, &text, &files);
+        let (world, garments, said) = told(block, &text, &files);
         let report = render::report(&said, &world, false, WIDTH);
         let codes: Vec<&str> = said.iter().map(|said| &*said.code).collect();
         if codes != block.codes {
             wrong.push(format!("{place} gives {codes:?}, not {:?}\n{report}", block.codes));
+        }
+        if let Some(name) = &block.picture {
+            let panels: Vec<Panel> = garments.into_iter().flat_map(|it| it.panels).collect();
+            wrong.extend(drawn(page, name, &drawing::drawing(&panels)));
         }
         if block.codes.is_empty() {
             let formatted = format(FileId(0), &text);
@@ -195,7 +216,11 @@ fn texts_are_right_or_give_their_codes() {
         }
         all.extend(wrong);
     }
-    assert!(all.is_empty(), "{}\n\n`UPDATE=1` renews listings and layout", all.join("\n"));
+    assert!(
+        all.is_empty(),
+        "{}\n\n`UPDATE=1` renews listings, layout and drawings",
+        all.join("\n")
+    );
 }
 
 #[test]

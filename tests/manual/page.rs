@@ -32,6 +32,8 @@ pub struct Block {
     pub frame: Option<String>,
     /// The name it gives to a frame, behind `frame`.
     pub names: Option<String>,
+    /// The drawing of its pieces that the page shows, behind `picture`.
+    pub picture: Option<String>,
     /// The file of which its lines are an excerpt, behind `of`.
     pub source: Option<String>,
     /// The file that it is.
@@ -61,6 +63,7 @@ impl Block {
         while let Some(word) = words.next() {
             match word {
                 "in" => block.frame = words.next().map(str::to_owned),
+                "picture" => block.picture = words.next().map(str::to_owned),
                 "of" => block.source = words.next().map(str::to_owned),
                 "frame" => block.names = words.next().map(str::to_owned),
                 "--set" => {

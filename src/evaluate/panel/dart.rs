@@ -89,7 +89,8 @@ impl<'t> Evaluator<'t> {
                 Diagnostic::new("E0303", format!("this edge is {} long", units::length(length)))
                     .at(arg.expr.span, format!("{} lies beyond its ends", units::length(at)))
                     .at(edge.span, "the edge");
-            if place.dimension.is_number() && place.value > 1.0 {
+            let bare = place.dimension.is_number() && !self.snippet(arg.expr.span).contains('%');
+            if bare && place.value > 1.0 {
                 let n = place.value;
                 told = told.help(format!(
                     "a number without a unit counts whole edges; write `{n}%` or `{n}cm`"
