@@ -336,7 +336,17 @@ fn codes_are_explained() {
     let (end, why) = said(&["explain", "E0571"]);
     assert!(end == 2 && why.contains("did you mean E0501?"), "{why}");
     let (end, why) = said(&["explain", "seams"]);
-    assert!(end == 2 && why.contains("`darzi explain` lists all"), "{why}");
+    assert!(end == 2 && why.contains("did you mean seam? `darzi explain` lists all"), "{why}");
+
+    let (end, words) = said(&["explain", "width"]);
+    assert_eq!(end, 0);
+    assert_eq!(
+        words,
+        "width: LENGTH\n    in a fabric: width of the roll =150cm\n\n\
+         width: LENGTH\n    in an ang, a kath, a padar: across the part, for a kath\n"
+    );
+    let (_, words) = said(&["explain", "meet"]);
+    assert!(words.starts_with("meet(P, ANGLE, Q, ANGLE)"), "{words}");
 
     std::fs::write(folder.path().join("a.garment"), "let a = 3 cm\n").unwrap();
     let (end, report) = said(&["check", "a.garment"]);

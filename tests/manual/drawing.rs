@@ -12,7 +12,7 @@ pub const FOLDER: &str = "docs/language/pictures";
 /// Units of the drawing in a metre of the longest piece's height.
 const HEIGHT: f64 = 360.0;
 /// Room round a piece for names.
-const MARGIN: f64 = 70.0;
+const MARGIN: f64 = 60.0;
 
 /// A drawing of all pieces side by side, in true proportion to each other.
 pub fn drawing(panels: &[Panel]) -> String {
@@ -34,9 +34,9 @@ pub fn drawing(panels: &[Panel]) -> String {
             MARGIN + scale * area.y1,
         ]);
         piece(&mut out, panel, place);
-        left += scale * area.width() + MARGIN;
+        left += scale * area.width() + 2.0 * MARGIN;
     }
-    let wide = left + MARGIN;
+    let wide = left;
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" \
          font-family=\"sans-serif\" font-size=\"13\">\n\
