@@ -341,9 +341,17 @@ impl<'t> Evaluator<'t> {
                 Some((0..count).map(|i| Value::number(from.value + i as f64)).collect())
             }
             other => {
-                let found = other.describe(|id| self.item(id).kind);
+                let message = match &other {
+                    Value::Range(from, to) => {
+                        format!("`for` goes through whole numbers, not from {from} to {to}")
+                    }
+                    other => {
+                        let found = other.describe(|id| self.item(id).kind);
+                        format!("`for` cannot go through {found}")
+                    }
+                };
                 self.tell(
-                    Diagnostic::new("E0304", format!("`for` cannot go through {found}"))
+                    Diagnostic::new("E0304", message)
                         .at(over.span, "a range of whole numbers or a list is wanted")
                         .help("such as `1..6` or `[2cm, 5cm]`"),
                 );

@@ -179,7 +179,13 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Tells a condition that does not hold, with what its two sides are worth.
-    fn tell_failed(&mut self, mut told: Diagnostic, check: Arg<'t>) {
+    fn tell_failed(&mut self, mut told: Diagnostic, mut check: Arg<'t>) {
+        // Of several conditions the first that does not hold is shown.
+        while let ExprKind::Binary { op: BinaryOp::And, left, right, .. } = &check.expr.kind {
+            let first = Arg { expr: left, ..check };
+            let failed = if self.condition(first) == Some(false) { left } else { right };
+            check = Arg { expr: failed, ..check };
+        }
         if let ExprKind::Binary { op, left, right, .. } = &check.expr.kind
             && !matches!(op, BinaryOp::And | BinaryOp::Or)
         {
