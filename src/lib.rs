@@ -30,9 +30,9 @@ pub mod syntax;
 
 pub mod evaluate;
 
-pub mod lsp;
-
 pub mod mesh;
+
+pub mod lsp;
 
 pub mod body;
 

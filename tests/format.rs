@@ -158,7 +158,7 @@ fn value(ends: Text) -> Text {
     ]);
     leaf.prop_recursive(4, 24, 4, move |inner| {
         let (end, comma) = (ends.clone(), comma(&ends));
-        let many = (inner.clone(), proptest::collection::vec((comma, inner.clone()), 0..4))
+        let many = (inner.clone(), proptest::collection::vec((comma.clone(), inner.clone()), 0..4))
             .prop_map(|(first, rest)| {
                 rest.into_iter().fold(first, |all, (comma, next)| all + &comma + &next)
             });
@@ -168,8 +168,11 @@ fn value(ends: Text) -> Text {
         Union::new([
             inside.clone().prop_map(|all| format!("({all})")).boxed(),
             inside.clone().prop_map(|all| format!("[{all}]")).boxed(),
-            end.prop_map(|end| format!("[{end}]")).boxed(),
+            end.clone().prop_map(|end| format!("[{end}]")).boxed(),
             (name(), inside.clone()).prop_map(|(of, all)| format!("{of}({all})")).boxed(),
+            (end.clone(), inner.clone(), comma.clone(), inner.clone(), end.clone())
+                .prop_map(|(a, v, comma, w, b)| format!("({{{a}side :{v}{comma}काठ: {w}{b}}})"))
+                .boxed(),
             (name(), inner.clone()).prop_map(|(of, v)| format!("{of}(p: {v})")).boxed(),
             (name(), inside.clone()).prop_map(|(of, all)| format!("{of}.side[{all}]")).boxed(),
             (name(), inner.clone()).prop_map(|(of, v)| format!("{of}[{v}  from hem]")).boxed(),

@@ -47,6 +47,7 @@ pub const CODES: &[Code] = &[
     code("E0210", "a text that takes too long to work out"),
     code("E0211", "values that hang on each other too deep"),
     code("E0212", "a value set from outside that cannot be read"),
+    code("E0213", "a value that grows too large"),
     code("E0301", "dimensions that do not go together"),
     code("E0302", "a value of another dimension is wanted"),
     code("E0303", "a value outside its range"),

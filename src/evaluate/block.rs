@@ -330,7 +330,7 @@ impl<'t> Evaluator<'t> {
     fn turns_of(&mut self, over: &'t Expr, scope: ScopeId) -> Option<Vec<Value>> {
         match self.eval(over, scope) {
             Value::Poison => None,
-            Value::List(values) => Some(values),
+            Value::List(values) => Some(values.to_vec()),
             Value::Range(from, to)
                 if from.dimension.is_number()
                     && to.dimension.is_number()

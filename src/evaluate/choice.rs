@@ -4,7 +4,7 @@
 use super::Evaluator;
 use super::fields::{Arg, Fields, bare};
 use super::scope::ScopeId;
-use super::value::{Chosen, Value};
+use super::value::{Chosen, LARGEST, LETTERS, Value};
 use crate::diagnostic::{Diagnostic, Span, codes, either};
 use crate::syntax::tree::{Argument, BinaryOp, Block, Expr, Item, Name, Statement, StatementKind};
 
@@ -256,6 +256,10 @@ impl<'t> Evaluator<'t> {
                 return Value::Poison;
             };
             out.push_str(&worth);
+            if out.len() > LETTERS * LARGEST {
+                // It is told by whoever asked for it.
+                return Value::Text(out);
+            }
         }
         out.push_str(rest);
         Value::Text(out)

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::fields::{Arg, bare};
 use super::scope::{ScopeId, What};
-use super::value::{Value, Vector};
+use super::value::{LARGEST, Value, Vector};
 use super::words::Kind;
 use crate::diagnostic::{Diagnostic, Span, either, spelling};
 use crate::syntax::tree::{Expr, ExprKind, Name, UnaryOp};
@@ -21,8 +21,30 @@ impl<'t> Evaluator<'t> {
             return Value::Poison;
         }
         let value = self.deeper(expr.span, |ev| ev.eval_kind(expr, scope));
+        let value = self.bounded(value, expr.span);
         self.note_value(expr, scope, &value);
         value
+    }
+
+    /// A value, unless it is made of too many: values made of values double with every line. What
+    /// is large takes its time to be handed on, so it counts as more steps.
+    fn bounded(&mut self, value: Value, span: Span) -> Value {
+        let bulk = match &value {
+            Value::List(_) | Value::Record(_) | Value::Text(_) | Value::Edges(_) => {
+                value.bulk(LARGEST + 1)
+            }
+            _ => return value,
+        };
+        if bulk > LARGEST {
+            let title = value.describe(|id| self.item(id).kind);
+            self.tell(
+                Diagnostic::new("E0213", format!("{title} that is too large"))
+                    .at(span, format!("more than {LARGEST} values"))
+                    .help("values that are made of values grow fast; keep less in them"),
+            );
+            return Value::Poison;
+        }
+        if self.step(bulk as u64 / 8, span) { value } else { Value::Poison }
     }
 
     /// As [`Self::eval`]; a name that nobody declared is looked up in these library modules.
@@ -106,6 +128,7 @@ impl<'t> Evaluator<'t> {
             ExprKind::List(parts) => {
                 Value::List(parts.iter().map(|part| self.eval(part, scope)).collect())
             }
+            ExprKind::Record(fields) => self.record(fields, scope),
             ExprKind::Choice { condition, then, otherwise } => {
                 let arg = Arg { expr: condition, scope, of: "if" };
                 match self.condition(arg) {
@@ -334,6 +357,7 @@ impl<'t> Evaluator<'t> {
                 "count" => Value::number(values.len() as f64),
                 _ => self.no_member("a list", name, ["count"].into_iter()),
             },
+            Value::Record(fields) => self.field(&fields, name),
             Value::Measure { wearer, name: measure } => {
                 // `lady.knee.left` is the same as `lady.left_knee`.
                 self.measure_member(wearer, &measure, name)

@@ -159,6 +159,10 @@ impl Shown {
                 Shown::Text(format!("#{r:02x}{g:02x}{b:02x}"))
             }
             Value::List(values) => Shown::Text(format!("a list of {}", values.len())),
+            Value::Record(fields) => {
+                let names: Vec<&str> = fields.iter().map(|(name, _)| name.as_str()).collect();
+                Shown::Text(format!("a record of {}", names.join(", ")))
+            }
             Value::Edges(edges) => Shown::Edges(
                 edges.iter().map(|edge| edge.length()).sum(),
                 edges.iter().map(|edge| edge.flat_length()).sum(),
@@ -183,6 +187,7 @@ fn telling(expr: &Expr) -> bool {
             | ExprKind::Colour(_)
             | ExprKind::Text(_)
             | ExprKind::List(_)
+            | ExprKind::Record(_)
     )
 }
 
@@ -422,6 +427,10 @@ impl<'t> Evaluator<'t> {
                 }
             };
             let key = (binding.span, binding.name.clone());
+            let fields = match value {
+                Some(Value::Record(fields)) => self.fields(fields),
+                _ => Vec::new(),
+            };
             let shown = value.and_then(Shown::of).filter(|_| !self.is_trial(binding.scope));
             let entry = found.entry(key).or_insert_with(|| Definition {
                 name: binding.name.clone(),
@@ -441,7 +450,7 @@ impl<'t> Evaluator<'t> {
                         .values()
                         .next()
                         .map_or(Vec::new(), |id| self.members(self.item(*id), facts)),
-                    _ => Vec::new(),
+                    _ => fields,
                 };
             }
         }
@@ -454,6 +463,19 @@ impl<'t> Evaluator<'t> {
             definition.worth = alone(std::mem::take(&mut definition.worth));
         }
         facts.definitions = found.into_values().collect();
+    }
+
+    /// What may stand behind the point of a record.
+    fn fields(&self, fields: &[(String, Value)]) -> Vec<Member> {
+        let text = |value| Shown::of(value).and_then(|shown| self.shown_text(&shown));
+        let fields = fields.iter();
+        fields
+            .map(|(name, value)| Member {
+                name: name.clone(),
+                what: "value",
+                text: text(value).unwrap_or_default(),
+            })
+            .collect()
     }
 
     /// What may stand behind the point of an item.

@@ -28,6 +28,7 @@ mod phrase;
 mod place;
 mod poison;
 mod read;
+mod record;
 mod row;
 pub mod sari;
 mod scene;

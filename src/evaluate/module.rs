@@ -2,7 +2,7 @@
 
 use super::scope::{ScopeId, What};
 use super::words::Kind;
-use super::{Evaluator, block::Merged};
+use super::{Evaluator, block::Merged, record};
 use crate::diagnostic::{Diagnostic, FileId, Span};
 use crate::syntax::{
     parse,
@@ -10,6 +10,7 @@ use crate::syntax::{
 };
 use crate::world::World;
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Files one text may use, one through another.
 const FILES: usize = 1_000;
@@ -39,7 +40,7 @@ pub(super) struct Loaded {
     /// How it was asked for: a path from the project's root, or `std::fabric`.
     pub path: String,
     pub text: String,
-    pub tree: File,
+    pub tree: Arc<File>,
     /// What its `use` lines point to.
     uses: Vec<Option<FileId>>,
 }
@@ -73,6 +74,35 @@ fn path_of(source: &Source, from: &str) -> Option<String> {
     }
 }
 
+/// Modules of the library that were read, by their names and numbers. Their texts are parts of
+/// the program, and an editor asks for them again after every letter.
+static LIBRARY_READ: Mutex<BTreeMap<(String, FileId), Arc<File>>> = Mutex::new(BTreeMap::new());
+
+/// So many of them are kept.
+const KEPT: usize = 256;
+
+/// Reads a file.
+fn read(id: FileId, path: &str, text: &str) -> (Arc<File>, Vec<Diagnostic>) {
+    let own = !path.starts_with("std::");
+    let key = (path.to_owned(), id);
+    if !own {
+        let kept = LIBRARY_READ.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(tree) = kept.get(&key) {
+            return (tree.clone(), Vec::new());
+        }
+    }
+    let (mut tree, told) = parse(id, text);
+    record::read_settings(&mut tree.statements);
+    let tree = Arc::new(tree);
+    if !own && told.is_empty() {
+        let mut kept = LIBRARY_READ.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.len() < KEPT {
+            kept.insert(key, tree.clone());
+        }
+    }
+    (tree, told)
+}
+
 /// Reads `root`, the library, and every file that is used from there.
 pub(super) fn load(
     world: &mut dyn World,
@@ -102,7 +132,7 @@ pub(super) fn load(
                 }
             }
         }
-        let (tree, mistakes) = parse(id, &text);
+        let (tree, mistakes) = read(id, &path, &text);
         told.extend(mistakes);
         let mut uses = Vec::new();
         for source in sources(&tree) {
@@ -175,7 +205,7 @@ fn ask(
         id,
         path: "--set".to_owned(),
         text,
-        tree: File::default(),
+        tree: Arc::default(),
         uses: Vec::new(),
     });
     asked

@@ -23,6 +23,7 @@ const KINDS: &[(&str, Option<Dimension>)] = &[
     ("colour", None),
     ("color", None),
     ("edge", None),
+    ("record", None),
 ];
 
 /// Kinds of value that `param a: kind` and functions name.
@@ -285,6 +286,7 @@ impl<'t> Evaluator<'t> {
                         | ("text", Value::Text(_))
                         | ("colour" | "color", Value::Colour(_))
                         | ("edge", Value::Edges(_))
+                        | ("record", Value::Record(_))
                 );
                 if fits {
                     value

@@ -7,6 +7,12 @@ use crate::textile::Colour;
 use crate::units::{Dimension, Quantity};
 use std::rc::Rc;
 
+/// Single values that a value may be made of: parts of a list, edges of a row.
+pub(super) const LARGEST: usize = 10_000;
+
+/// Letters of a text that count as one value.
+pub(super) const LETTERS: usize = 64;
+
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -27,7 +33,9 @@ pub enum Value {
     /// From, to, both included.
     Range(Quantity, Quantity),
     /// `[a, b]`
-    List(Vec<Value>),
+    List(Rc<[Value]>),
+    /// `{ a: 1cm, b: 2cm }`, in the order of the text.
+    Record(Rc<[(String, Value)]>),
     /// A panel, fabric, wearer, …
     Item(ItemId),
     /// Several panels of one name, `gore[1..6]`.
@@ -91,6 +99,29 @@ impl Value {
         Value::Vector(Vector { dimension: Dimension::LENGTH, parts: at.to_vec() })
     }
 
+    /// How many single values it is made of, counted up to `most`; so many letters of a text
+    /// count as one.
+    pub(super) fn bulk(&self, most: usize) -> usize {
+        let sum = |values: &mut dyn Iterator<Item = &Value>| {
+            let mut sum = 1;
+            for value in values {
+                if sum >= most {
+                    break;
+                }
+                sum += value.bulk(most - sum);
+            }
+            sum
+        };
+        match self {
+            Value::List(values) => sum(&mut values.iter()),
+            Value::Record(fields) => sum(&mut fields.iter().map(|(_, value)| value)),
+            Value::Text(text) => 1 + text.len() / LETTERS,
+            Value::Edges(edges) => edges.len(),
+            Value::Items(items) => items.len(),
+            _ => 1,
+        }
+    }
+
     /// What it is, for messages: `a length`, `a panel`. Items are told by their kind.
     pub fn describe(&self, kind_of: impl Fn(ItemId) -> Kind) -> String {
         match self {
@@ -104,6 +135,7 @@ impl Value {
             Value::Vector(_) => "a vector".to_owned(),
             Value::Range(..) => "a range".to_owned(),
             Value::List(_) => "a list".to_owned(),
+            Value::Record(_) => "a record".to_owned(),
             Value::Item(id) => kind_of(*id).title().to_owned(),
             Value::Items(_) => "several panels".to_owned(),
             Value::Half(..) => "a panel".to_owned(),

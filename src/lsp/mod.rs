@@ -3,12 +3,13 @@
 //! A text is cut into statements after every keystroke (`outline`), however broken it is; what
 //! its names are and what they are worth comes from the evaluation, which runs beside
 //! (`study`). An answer waits a moment for it and otherwise takes what was known before, its
-//! places moved with the text. Each file here answers one kind of question.
+//! places moved with the text. In a pause of writing the garments are cut (`cutting`). Each file here answers one kind of question.
 
 mod across;
 mod actions;
 mod clause;
 mod complete;
+mod cutting;
 mod definition;
 mod describe;
 mod document;

@@ -13,17 +13,18 @@ use std::collections::BTreeMap;
 /// Messages of one text that are shown; thousands help nobody and keep the client busy.
 const SHOWN: usize = 500;
 
-/// The messages of a study by the addresses of the files they speak of; those of files that
-/// cannot be opened are told at the beginning of the document.
+/// Messages of a study by the addresses of the files they speak of; those of files that cannot
+/// be opened are told at the beginning of the document.
 pub fn problems(
     study: &Study,
+    told: &[Told],
     folders: &Folders,
     document: &Document,
 ) -> BTreeMap<String, Vec<Diagnostic>> {
     let mut found: BTreeMap<String, Vec<Diagnostic>> = BTreeMap::new();
     let mut texts: BTreeMap<FileId, Text> = BTreeMap::new();
     found.insert(study.job.uri.clone(), Vec::new());
-    for told in study.told.iter().take(SHOWN) {
+    for told in told.iter().take(SHOWN) {
         for label in &told.labels {
             let file = label.span.file;
             texts.entry(file).or_insert_with(|| text_of(study, file, &document.text));

@@ -11,6 +11,7 @@ use super::text::{Encoding, Text};
 use super::{
     actions, complete, definition, hints, hover, layout, problems, signature, symbols, tokens, uri,
 };
+use crate::diagnostic::Diagnostic as Told;
 use gen_lsp_types::{
     Diagnostic, DidChangeTextDocumentParams, DidOpenTextDocumentParams, DocumentHighlight,
     InitializeResult, Position, PublishDiagnosticsParams, Range, ServerCapabilities, ServerInfo,
@@ -67,8 +68,8 @@ pub fn run(library: Option<PathBuf>) -> Result<(), String> {
         // Nobody listens when the session is over.
         let _ = theirs.send(Event::Gone);
     });
-    let worker = Worker::start(move |study, job| {
-        let _ = events.send(Event::Studied(study.map(Box::new), job));
+    let worker = Worker::start(move |event| {
+        let _ = events.send(event);
     });
     let worker = worker.map_err(|error| format!("there is no room to work: {error}"))?;
     let mut session = Session {
@@ -191,6 +192,7 @@ impl Session<'_> {
                 }
                 Ok(Event::Message(Message::Response(_))) | Err(RecvTimeoutError::Timeout) => {}
                 Ok(Event::Studied(study, job)) => self.studied(study.map(|study| *study), &job),
+                Ok(Event::Cut(told, job)) => self.cut(&told, &job),
                 Ok(Event::Gone) | Err(RecvTimeoutError::Disconnected) => return self.over,
             }
             self.answer_waiting(|_| false);
@@ -374,16 +376,31 @@ impl Session<'_> {
         document.study = Some(study.clone());
         // Messages of an older text would stand at the wrong places.
         if document.is_known() {
-            let found = problems::problems(&study, &self.folders, document);
-            let before = self.foreign.insert(job.uri.clone(), found).unwrap_or_default();
-            let now = self.foreign.get(&job.uri).cloned().unwrap_or_default();
-            let touched: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
-            for address in touched {
-                self.publish(address);
-            }
+            let found = problems::problems(&study, &study.told, &self.folders, document);
+            self.show(&job.uri, found);
             if self.refreshes {
                 self.request("workspace/inlayHint/refresh", Value::Null);
             }
+        }
+    }
+
+    /// Takes in what was wrong when the garments of a document were cut.
+    fn cut(&mut self, told: &[Told], job: &Job) {
+        let Some(document) = self.documents.get(&job.uri).filter(|d| d.is_known()) else { return };
+        let study = document.study.clone().filter(|study| study.job.state == job.state);
+        let Some(study) = study.filter(|_| !told.is_empty()) else { return };
+        let all: Vec<Told> = study.told.iter().chain(told).cloned().collect();
+        let found = problems::problems(&study, &all, &self.folders, document);
+        self.show(&job.uri, found);
+    }
+
+    /// Tells the client what a study has found about each file.
+    fn show(&mut self, uri: &str, found: BTreeMap<String, Vec<Diagnostic>>) {
+        let before = self.foreign.insert(uri.to_owned(), found).unwrap_or_default();
+        let now = self.foreign.get(uri).cloned().unwrap_or_default();
+        let touched: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
+        for address in touched {
+            self.publish(address);
         }
     }
 

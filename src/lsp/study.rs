@@ -1,15 +1,18 @@
 //! What is known of a document after it was worked out: facts, messages and the files read. The
 //! work is done by a thread of its own, so that a text that takes long keeps nobody waiting.
 
+use super::cutting::mistakes;
 use crate::diagnostic::{Diagnostic, FileId, Span, Texts};
 use crate::evaluate::facts::{Definition, Facts};
 use crate::evaluate::{self, Options};
+use crate::garment::Garment;
 use crate::world::{Desk, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Duration;
 
 /// Where a document stands: a project, and its path there.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,6 +49,8 @@ pub struct Study {
     pub facts: Facts,
     /// What is wrong with them.
     pub told: Vec<Diagnostic>,
+    /// The garments of the document, until they are cut.
+    pub garments: Vec<Garment>,
 }
 
 impl Study {
@@ -53,8 +58,8 @@ impl Study {
     pub fn of(job: Job) -> Option<Study> {
         let mut desk = Desk::new(job.place.folder.clone(), job.open.clone());
         let root = desk.open(&job.place.path).ok()?;
-        let (_, told, facts) = evaluate::study(&mut desk, root, &Options::default());
-        Some(Study { job, desk, root, facts, told })
+        let (garments, told, facts) = evaluate::study(&mut desk, root, &Options::default());
+        Some(Study { job, desk, root, facts, told, garments })
     }
 
     /// The document's own text, as it was.
@@ -126,7 +131,8 @@ impl Study {
     }
 }
 
-/// The thread that works documents out, the most recent question first.
+/// The thread that works documents out, the most recent question first, and cuts their garments
+/// when nobody asks for more.
 pub struct Worker {
     jobs: Arc<(Mutex<Jobs>, Condvar)>,
 }
@@ -140,21 +146,25 @@ struct Jobs {
 /// Stack for reading a text, in bytes; working it out has a stack of its own.
 const STACK: usize = 64 << 20;
 
+/// How long nobody writes before garments are cut.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// What the worker does next.
+enum Next {
+    Study(Job),
+    Cut,
+    Stop,
+}
+
 impl Worker {
-    /// Starts the thread; what it finds is given to `done`.
-    pub fn start(done: impl Fn(Option<Study>, Job) + Send + 'static) -> std::io::Result<Worker> {
+    /// Starts the thread; what it finds is given to `tell`.
+    pub fn start(tell: impl Fn(Event) + Send + 'static) -> std::io::Result<Worker> {
         let jobs: Arc<(Mutex<Jobs>, Condvar)> = Arc::default();
         let theirs = jobs.clone();
-        std::thread::Builder::new().name("study".to_owned()).stack_size(STACK).spawn(
-            move || {
-                while let Some(job) = next(&theirs) {
-                    let asked = job.clone();
-                    // The server outlives a mistake of the program's own.
-                    let study = catch_unwind(AssertUnwindSafe(|| Study::of(asked)));
-                    done(study.unwrap_or(None), job);
-                }
-            },
-        )?;
+        std::thread::Builder::new()
+            .name("study".to_owned())
+            .stack_size(STACK)
+            .spawn(move || work(&theirs, tell))?;
         Ok(Worker { jobs })
     }
 
@@ -176,16 +186,62 @@ impl Drop for Worker {
     }
 }
 
-fn next((lock, bell): &(Mutex<Jobs>, Condvar)) -> Option<Job> {
+/// Works until there is no more to do. The server outlives a mistake of the program's own.
+fn work(jobs: &(Mutex<Jobs>, Condvar), tell: impl Fn(Event)) {
+    let mut uncut: BTreeMap<String, (Job, Vec<Garment>)> = BTreeMap::new();
+    loop {
+        match next(jobs, !uncut.is_empty()) {
+            Next::Stop => return,
+            Next::Study(job) => {
+                let asked = job.clone();
+                let study = catch_unwind(AssertUnwindSafe(|| Study::of(asked)));
+                let mut study = study.unwrap_or(None).map(Box::new);
+                uncut.remove(&job.uri);
+                if let Some(study) = &mut study
+                    && !study.garments.is_empty()
+                {
+                    let garments = std::mem::take(&mut study.garments);
+                    uncut.insert(job.uri.clone(), (job.clone(), garments));
+                }
+                tell(Event::Studied(study, job));
+            }
+            Next::Cut => {
+                let Some((uri, (job, garments))) = uncut.pop_first() else { continue };
+                let busy = || {
+                    let jobs = jobs.0.lock().unwrap_or_else(PoisonError::into_inner);
+                    jobs.over || !jobs.waiting.is_empty()
+                };
+                let told = catch_unwind(AssertUnwindSafe(|| mistakes(&garments, busy)));
+                match told {
+                    Ok(Some(told)) => tell(Event::Cut(told, job)),
+                    Ok(None) => drop(uncut.insert(uri, (job, garments))),
+                    Err(_) => {}
+                }
+            }
+        }
+    }
+}
+
+/// Waits for a question, or, where something is left to cut, for a pause.
+fn next((lock, bell): &(Mutex<Jobs>, Condvar), uncut: bool) -> Next {
     let mut jobs = lock.lock().unwrap_or_else(PoisonError::into_inner);
     loop {
         if jobs.over {
-            return None;
+            return Next::Stop;
         }
         if let Some(job) = jobs.waiting.pop() {
-            return Some(job);
+            return Next::Study(job);
         }
-        jobs = bell.wait(jobs).unwrap_or_else(PoisonError::into_inner);
+        if !uncut {
+            jobs = bell.wait(jobs).unwrap_or_else(PoisonError::into_inner);
+            continue;
+        }
+        let (woken, waited) =
+            bell.wait_timeout(jobs, PAUSE).unwrap_or_else(PoisonError::into_inner);
+        jobs = woken;
+        if waited.timed_out() && jobs.waiting.is_empty() && !jobs.over {
+            return Next::Cut;
+        }
     }
 }
 
@@ -195,6 +251,8 @@ pub enum Event {
     Message(lsp_server::Message),
     /// A document was worked out, or could not be.
     Studied(Option<Box<Study>>, Job),
+    /// What was wrong when its garments were cut.
+    Cut(Vec<Diagnostic>, Job),
     /// The client is gone.
     Gone,
 }

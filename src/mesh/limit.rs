@@ -1,5 +1,6 @@
 //! What cannot be cut: panels without an area, too large or too small for their grid.
 
+use super::DEFAULT_CELL;
 use super::outline::Outline;
 use crate::diagnostic::Diagnostic;
 use crate::garment::Garment;
@@ -66,6 +67,15 @@ pub fn check(garment: &Garment, outlines: &[Vec<Outline>], cell: &[f64]) -> Vec<
         );
     }
     found
+}
+
+/// Particles of a garment, more or less, with cells as it asks for them.
+pub fn estimate(garment: &Garment) -> f64 {
+    let of_panel = |panel: &Panel| {
+        let cell = panel.cell.unwrap_or(DEFAULT_CELL);
+        panel.loops.iter().map(area).sum::<f64>() / (cell * cell)
+    };
+    garment.panels.iter().map(of_panel).sum()
 }
 
 /// A cell of which a panel of this area holds about two hundred, m.

@@ -5,7 +5,7 @@ use super::grammar::{Part, Rule};
 use super::literal::colour;
 use super::nesting::{self, DEEPEST_VALUE};
 use super::reader::Reader;
-use super::tree::{Argument, BinaryOp, Expr, ExprKind, Name, UnaryOp};
+use super::tree::{Argument, BinaryOp, Expr, ExprKind, Field, Name, UnaryOp};
 use crate::diagnostic::Span;
 use std::iter::Peekable;
 
@@ -64,7 +64,26 @@ impl Reader<'_> {
 
     fn tall(&mut self, part: Part) -> Tall {
         let span = self.span(&part);
-        self.deeper(span, |reader| reader.climb(&mut part.into_inner().peekable(), 0))
+        self.deeper(span, |reader| match part.as_rule() {
+            Rule::record => reader.record(span, part),
+            _ => reader.climb(&mut part.into_inner().peekable(), 0),
+        })
+    }
+
+    /// `{ width: 12cm, depth: 3cm }`
+    fn record(&mut self, span: Span, part: Part) -> Tall {
+        let mut fields = Vec::new();
+        let mut height = 0;
+        for field in part.into_inner() {
+            let mut inner = field.into_inner();
+            if let (Some(name), Some(value)) = (inner.next(), inner.next()) {
+                let name = self.name(&name);
+                let value = self.tall(value);
+                height = height.max(value.height);
+                fields.push(Field { name, value: value.expr });
+            }
+        }
+        self.grown(span, ExprKind::Record(fields), height)
     }
 
     /// Goes one level down, unless that is too deep.
@@ -264,7 +283,10 @@ impl Reader<'_> {
     fn values(&mut self, part: Part) -> (Vec<Expr>, u32) {
         let mut values: Vec<Expr> = Vec::new();
         let mut height = 0;
-        for inner in part.into_inner().filter(|inner| inner.as_rule() == Rule::expr) {
+        for inner in part.into_inner() {
+            if !matches!(inner.as_rule(), Rule::expr | Rule::record) {
+                continue;
+            }
             let value = self.tall(inner);
             height = height.max(value.height);
             if let Some(before) = values.last_mut()

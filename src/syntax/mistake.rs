@@ -107,8 +107,17 @@ fn unlike(at: Span, written: &str, meant: &str) -> Diagnostic {
 /// Stray texts of a file that are looked at closely; nobody reads more explanations.
 const EXPLAINED: usize = 200;
 
-/// Explains the stray text `junk`; the statement it belongs to begins at `from`.
-pub(super) fn explain(reader: &mut Reader, from: usize, junk: Span) -> Diagnostic {
+/// Letters of a broken record that are looked at.
+const RECORD: usize = 2_000;
+
+/// Explains the stray text `junk`; the statement it belongs to begins at `from`. Behind it a
+/// `block` may stand, which may have been meant for a record.
+pub(super) fn explain(
+    reader: &mut Reader,
+    from: usize,
+    junk: Span,
+    block: Option<Span>,
+) -> Diagnostic {
     let (start, end) = (junk.start as usize, junk.end as usize);
     reader.explained += 1;
     if reader.explained > EXPLAINED {
@@ -124,6 +133,11 @@ pub(super) fn explain(reader: &mut Reader, from: usize, junk: Span) -> Diagnosti
     let rest = reader.slice(stop, end);
     let at = (end - rest.trim_start_matches([' ', '\t']).len()).max(start.min(stop));
     let site = Site { reader, from, junk, at, rest: reader.slice(at, end) };
+    if let (true, Some(block)) = (site.rest.is_empty(), block)
+        && let Some(told) = site.record(block)
+    {
+        return told;
+    }
     site.invisible()
         .or_else(|| site.doc())
         .or_else(|| site.string())
@@ -330,6 +344,28 @@ impl<'t> Site<'_, 't> {
         let token = self.token();
         (RESERVED.contains(&token) && !self.begins(token))
             .then(|| reserved(token, self.span(token.len())))
+    }
+
+    /// A record that cannot be read, where a value is wanted at the end of the text left over.
+    fn record(&self, block: Span) -> Option<Diagnostic> {
+        let before = self.before().trim_end();
+        let wanted = before.ends_with(['=', '(', '[', ',', ':'])
+            || ["then", "else"].into_iter().any(|word| before.ends_with(word));
+        if !wanted {
+            return None;
+        }
+        let end = (block.end as usize).min(block.start as usize + RECORD);
+        let end = self.reader.place(end, end).start as usize;
+        let stop = grammar::read(Rule::probe, self.reader.slice(self.from, end)).err()?;
+        let at = self.from + stop.at;
+        let rest = self.reader.slice(at, end);
+        let at = at + rest.len() - rest.trim_start_matches([' ', '\t']).len();
+        let rest = self.reader.slice(at, end).lines().next().unwrap_or("");
+        let site = Site { reader: self.reader, from: self.from, junk: self.junk, at, rest };
+        let told = site.decimal_comma().or_else(|| site.unit_apart());
+        Some(told.unwrap_or_else(|| {
+            site.unexpected().help("a record is `{ NAME: VALUE, NAME: VALUE }`")
+        }))
     }
 
     /// A bracket that is open at the place, the line being at its end.

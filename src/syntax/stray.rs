@@ -135,7 +135,10 @@ impl Reader<'_> {
                 (Some(_), true) => Diagnostic::new("E0101", "this block belongs to nothing")
                     .at(self.place(start, start + 1), "here")
                     .help("a block stands behind its name on the same line: `panel front { … }`"),
-                _ => mistake::explain(self, from, span),
+                (block, _) => {
+                    let block = block.as_ref().map(|block| self.span(block));
+                    mistake::explain(self, from, span, block)
+                }
             };
             self.tell(told);
         }

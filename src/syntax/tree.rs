@@ -213,6 +213,8 @@ pub enum ExprKind {
     Point(Vec<Expr>),
     /// `[a, b]`
     List(Vec<Expr>),
+    /// `{ width: 12cm, depth: 3cm }`
+    Record(Vec<Field>),
     /// `if c then a else b`
     Choice {
         /// The condition.
@@ -245,6 +247,15 @@ pub enum ExprKind {
         /// After it.
         right: Box<Expr>,
     },
+}
+
+/// A named value of a record.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Field {
+    /// Its name.
+    pub name: Name,
+    /// Its value.
+    pub value: Expr,
 }
 
 /// An argument of a call.

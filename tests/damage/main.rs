@@ -160,6 +160,8 @@ fn time_grows_with_the_text() {
     // open, doc comments on nothing, a line without end.
     let pieces = [
         "f(",
+        "f(a: {",
+        "let a = { b: c, d: ",
         "((((",
         "[[",
         "{ a ",

@@ -8,4 +8,5 @@ mod garments;
 mod library;
 mod operations;
 mod parts;
+mod records;
 mod tour;

@@ -44,6 +44,32 @@ fn columns_are_counted_as_the_client_asks() {
     assert_eq!(column(&mut client), units + 6);
 }
 
+/// What `check` says of the cloth is shown when the writer pauses, and goes with the mistake.
+#[test]
+fn what_cannot_be_cut_is_told_in_a_pause() {
+    let scene = |grid: &str| {
+        format!("scene sheet {{ cloth square of cotton {{ size: 2m x 2m; grid: {grid} }} }}\n")
+    };
+    let codes = |told: &[Value]| -> Vec<String> {
+        told.iter().map(|told| told["code"].as_str().unwrap().to_owned()).collect()
+    };
+    let mut client = Client::start(&[]);
+    let uri = client.uri("a.garment");
+    assert_eq!(client.open("a.garment", &scene("0.5mm")), Vec::<Value>::new());
+    assert_eq!(codes(&client.problems(&uri)), ["E0811"]);
+    assert_eq!(client.change("a.garment", &scene("2cm")), Vec::<Value>::new());
+    // Much is cut coarser than it is asked for; a small piece in it is no mistake.
+    let small = "cloth patch of cotton { size: 8mm x 8mm; grid: 5mm }";
+    let both = format!(
+        "scene sheet {{ cloth square of cotton {{ size: 2m x 2m; grid: 1.5mm }}; {small} }}"
+    );
+    assert_eq!(client.change("a.garment", &both), Vec::<Value>::new());
+    let tiny = "scene sheet { cloth patch of cotton { size: 5mm x 5mm; grid: 2cm } }";
+    assert_eq!(client.change("a.garment", tiny), Vec::<Value>::new());
+    assert_eq!(codes(&client.problems(&uri)), ["E0812"]);
+    assert_eq!(client.end(), Some(0));
+}
+
 #[test]
 fn requests_that_make_no_sense_are_refused_and_the_session_goes_on() {
     let mut client = Client::start(&[]);

@@ -91,7 +91,7 @@ fn groups<'t>(ev: &mut Evaluator<'t>, phrase: &Phrase<'t>) -> Option<Vec<BTreeSe
     let mut found = Vec::new();
     for (value, span) in values(ev, phrase)? {
         let parts = match value {
-            Value::List(parts) => parts,
+            Value::List(parts) => parts.to_vec(),
             other => vec![other],
         };
         let mut group = Vec::new();

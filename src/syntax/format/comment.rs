@@ -124,6 +124,7 @@ impl Closed {
             ExprKind::Point(values) | ExprKind::List(values) => {
                 values.iter().for_each(|value| self.value(value));
             }
+            ExprKind::Record(fields) => fields.iter().for_each(|field| self.value(&field.value)),
             ExprKind::Choice { condition, then, otherwise } => {
                 [condition, then, otherwise].into_iter().for_each(|value| self.value(value));
             }

@@ -215,14 +215,17 @@ impl<'t> Pen<'t> {
         self.brackets.push(self.line.indent + LEVEL);
     }
 
-    /// Closes a bracket behind what ends at `from`; the bracket of the old text stands at `to`.
-    pub(super) fn close(&mut self, bracket: &str, from: usize, to: usize) {
+    /// Closes a bracket behind what ends at `from`, with `blank` before it on the same line; the
+    /// bracket of the old text stands at `to`.
+    pub(super) fn close(&mut self, bracket: &str, blank: &str, from: usize, to: usize) {
         let inside = self.brackets.last().copied();
         let broken = self.comments_within(from, to) || self.breaks(from, to);
         self.brackets.pop();
         if broken {
             self.end();
             self.line.indent = inside.unwrap_or(LEVEL) - LEVEL;
+        } else {
+            self.write(blank);
         }
         self.write(bracket);
     }

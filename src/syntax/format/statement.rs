@@ -186,7 +186,7 @@ impl<'t> Pen<'t> {
             }
         }
         let close = self.find(')', at);
-        self.close(")", at, close);
+        self.close(")", "", at, close);
         let mut end = close + 1;
         if let Some(kind) = kind {
             self.write(": ");
@@ -243,7 +243,7 @@ impl<'t> Pen<'t> {
                     at = name.span.end as usize;
                 }
                 let close = self.find('}', at);
-                self.close("}", at, close);
+                self.close("}", "", at, close);
             }
         }
         if let Some(alias) = &source.alias {

@@ -2,7 +2,7 @@
 
 use super::pen::Pen;
 use crate::diagnostic::Span;
-use crate::syntax::tree::{Argument, BinaryOp, Expr, ExprKind, UnaryOp};
+use crate::syntax::tree::{Argument, BinaryOp, Expr, ExprKind, Field, UnaryOp};
 
 impl Pen<'_> {
     /// A value.
@@ -19,6 +19,7 @@ impl Pen<'_> {
             }
             ExprKind::Point(values) => self.bracketed("(", ")", span.start, span, values),
             ExprKind::List(values) => self.bracketed("[", "]", span.start, span, values),
+            ExprKind::Record(fields) => self.record(span, fields),
             ExprKind::Choice { condition, then, otherwise } => {
                 for (word, part) in [("if ", condition), (" then ", then), (" else ", otherwise)] {
                     self.write(word);
@@ -48,7 +49,7 @@ impl Pen<'_> {
                     self.copy(from.span);
                     at = from.span.end as usize;
                 }
-                self.close("]", at, span.end as usize - 1);
+                self.close("]", "", at, span.end as usize - 1);
             }
             ExprKind::Unary(UnaryOp::Minus, inner) => {
                 self.write("-");
@@ -76,7 +77,24 @@ impl Pen<'_> {
     fn bracketed(&mut self, left: &str, right: &str, open: u32, whole: Span, values: &[Expr]) {
         self.open(left);
         let at = self.list(open as usize + 1, values);
-        self.close(right, at, whole.end as usize - 1);
+        self.close(right, "", at, whole.end as usize - 1);
+    }
+
+    /// `{ width: 12cm, depth: 3cm }`
+    fn record(&mut self, whole: Span, fields: &[Field]) {
+        self.open("{");
+        let mut at = whole.start as usize + 1;
+        for (number, Field { name, value }) in fields.iter().enumerate() {
+            if number > 0 {
+                self.write(",");
+            }
+            self.cross(at, name.span.start as usize, " ");
+            self.copy(name.span);
+            self.write(": ");
+            self.value(value);
+            at = value.span.end as usize;
+        }
+        self.close("}", " ", at, whole.end as usize - 1);
     }
 
     /// Values with commas between them; `at` is the place behind the opening bracket. Gives the
@@ -102,7 +120,7 @@ impl Pen<'_> {
             self.value(value);
             at = value.span.end as usize;
         }
-        self.close(")", at, whole.end as usize - 1);
+        self.close(")", "", at, whole.end as usize - 1);
     }
 
     /// Crosses to the next part of a list, which stands at `next`; the one before ends at `at`.
