@@ -33,10 +33,13 @@ const LONGEST: usize = 64;
 
 /// Twice the number of mistakes between two words.
 fn distance(a: &[char], b: &[char]) -> usize {
-    // rows[i][j] is the distance between the first i letters of a and the first j of b.
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).map(|j| 2 * j).collect()];
+    // row[j] is the distance between the first i letters of a and the first j of b; the two rows
+    // before it are those of fewer letters of a.
+    let mut before = vec![0; b.len() + 1];
+    let mut last: Vec<usize> = (0..=b.len()).map(|j| 2 * j).collect();
+    let mut row = before.clone();
     for (i, &x) in a.iter().enumerate() {
-        let mut row = vec![2 * (i + 1)];
+        row[0] = 2 * (i + 1);
         for (j, &y) in b.iter().enumerate() {
             let differs = if x == y {
                 0
@@ -45,18 +48,18 @@ fn distance(a: &[char], b: &[char]) -> usize {
             } else {
                 2
             };
-            let exchanged = rows[i][j] + differs;
-            let deleted = rows[i][j + 1] + 2;
+            let exchanged = last[j] + differs;
+            let deleted = last[j + 1] + 2;
             let inserted = row[j] + 2;
             let mut least = exchanged.min(deleted).min(inserted);
             if i > 0 && j > 0 && x == b[j - 1] && a[i - 1] == y && x != y {
-                least = least.min(rows[i - 1][j - 1] + 2);
+                least = least.min(before[j - 1] + 2);
             }
-            row.push(least);
+            row[j + 1] = least;
         }
-        rows.push(row);
+        (before, last, row) = (last, row, before);
     }
-    rows.last().and_then(|row| row.last()).copied().unwrap_or(0)
+    last[b.len()]
 }
 
 #[cfg(test)]

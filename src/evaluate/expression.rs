@@ -91,12 +91,16 @@ impl<'t> Evaluator<'t> {
     }
 
     fn tell_unknown(&mut self, name: &Name, known: &[String], help: Option<String>) {
+        let message = format!("nothing here is called `{}`", name.text);
+        // What was meant is looked for once, not in every turn of a loop.
+        if self.was_told("E0201", name.span, &message) {
+            return;
+        }
         let near = spelling::nearest(&name.text, known.iter().map(String::as_str));
         if self.blind && near.is_none() {
             return;
         }
         let label = self.meant(&name.text, known.iter().map(String::as_str));
-        let message = format!("nothing here is called `{}`", name.text);
         let mut told = Diagnostic::new("E0201", message).at(name.span, label);
         told.help = help;
         self.tell(told);

@@ -183,6 +183,8 @@ pub struct Evaluator<'t> {
     /// Bodies of the functions being called.
     calling: Vec<&'t Expr>,
     told: Vec<Diagnostic>,
+    /// Lines whose words their blocks do not know, with the words that were probably meant.
+    unknown: BTreeMap<(Span, words::Kind), Option<&'static words::Word>>,
     /// Numbers of what was told, by main place and code.
     told_at: BTreeMap<(Option<Span>, String), Vec<usize>>,
     /// What is noted for editors, if that is asked for.
@@ -222,6 +224,7 @@ impl<'t> Evaluator<'t> {
             waiting: Vec::new(),
             calling: Vec::new(),
             told: Vec::new(),
+            unknown: BTreeMap::new(),
             told_at: BTreeMap::new(),
             notes: None,
             depth: 0,
@@ -248,6 +251,12 @@ impl<'t> Evaluator<'t> {
             let diagnostic = self.in_part(diagnostic);
             self.told.push(diagnostic);
         }
+    }
+
+    /// Whether this was said of a place already.
+    fn was_told(&self, code: &str, at: Span, message: &str) -> bool {
+        let same = self.told_at.get(&(Some(at), code.to_owned())).into_iter().flatten();
+        same.into_iter().any(|&number| self.told[number].message == message)
     }
 
     /// The text of a place.

@@ -79,6 +79,36 @@ impl<'t> Evaluator<'t> {
         key: &Name,
         action: Option<&Name>,
     ) -> Option<&'static Word> {
+        self.once_unknown(kind, key, |ev| ev.unknown_property(kind, key, action))
+    }
+
+    /// Tells a line that the block does not know. Gives the word that was probably meant.
+    pub(super) fn tell_unknown_line(&mut self, kind: Kind, name: &Name) -> Option<&'static Word> {
+        self.once_unknown(kind, name, |ev| ev.unknown_line(kind, name))
+    }
+
+    /// Looks for what was meant the first time that a line is read: blocks in loops and panels
+    /// with fits are read over and over.
+    fn once_unknown(
+        &mut self,
+        kind: Kind,
+        name: &Name,
+        tell: impl FnOnce(&mut Self) -> Option<&'static Word>,
+    ) -> Option<&'static Word> {
+        if let Some(&meant) = self.unknown.get(&(name.span, kind)) {
+            return meant;
+        }
+        let meant = tell(self);
+        self.unknown.insert((name.span, kind), meant);
+        meant
+    }
+
+    fn unknown_property(
+        &mut self,
+        kind: Kind,
+        key: &Name,
+        action: Option<&Name>,
+    ) -> Option<&'static Word> {
         let table = vocabulary(kind);
         if let Some(word) = table.find(&key.text, false) {
             self.tell(
@@ -95,8 +125,7 @@ impl<'t> Evaluator<'t> {
         self.tell_unknown_word(kind, wrong)
     }
 
-    /// Tells a line that the block does not know. Gives the word that was probably meant.
-    pub(super) fn tell_unknown_line(&mut self, kind: Kind, name: &Name) -> Option<&'static Word> {
+    fn unknown_line(&mut self, kind: Kind, name: &Name) -> Option<&'static Word> {
         let table = vocabulary(kind);
         if let Some(word) = table.find(&name.text, true) {
             self.tell(

@@ -84,6 +84,8 @@ impl<'t> Pen<'t> {
     /// Ends a cell of kind `before` ahead of a property on the same line.
     fn next_property(&mut self, before: Kind<'t>, statement: &Statement) {
         match self.kind(statement) {
+            // A list of settings, or a record.
+            _ if self.ends_with(',') => self.write(" "),
             Kind::Property(key) if self.flat < 2 => self.cut(before, Edge::Next(key), APART),
             _ => self.write("   "),
         }

@@ -133,6 +133,11 @@ impl<'t> Pen<'t> {
         self.line.width()
     }
 
+    /// Whether the line ends with a sign so far.
+    pub(super) fn ends_with(&self, sign: char) -> bool {
+        self.line.cells.last().is_some_and(|cell| cell.text.ends_with(sign))
+    }
+
     /// Whether nothing stands on the line yet.
     pub(super) fn is_fresh(&self) -> bool {
         self.line.cells.is_empty()
