@@ -266,6 +266,9 @@ impl<'t> Evaluator<'t> {
                             );
                             break;
                         }
+                        if !self.step(super::LINE * lines.len() as u64, over.span) {
+                            break;
+                        }
                         let turn = self.new_scope(Some(inner));
                         self.declare(turn, &name.text, name.span, turn, What::Given(value));
                         self.walk(&lines, turn, out);

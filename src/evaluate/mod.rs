@@ -66,9 +66,10 @@ pub struct Options {
 /// Steps of evaluation one text may take; an ordinary garment takes some ten thousand.
 const STEPS: u64 = 10_000_000;
 
-/// Steps that one call of a function stands for, and one opening of a panel: both leave names
-/// behind, so that the limit of steps also bounds memory.
+/// Steps that one call of a function stands for, one line in one turn of a loop, and one opening
+/// of a panel: all leave names behind, so that the limit of steps also bounds memory.
 const CALL: u64 = 100;
+const LINE: u64 = 50;
 const OPENING: u64 = 300;
 
 /// Messages of one code at one place.
