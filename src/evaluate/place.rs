@@ -337,7 +337,12 @@ impl<'t> Evaluator<'t> {
                         landmark: mark.on(side_name.as_deref()),
                         level: level.as_ref().map(|level| level.on(side_name.as_deref())),
                         side,
-                        anchor: anchor(&draft, number, edge.as_ref()),
+                        anchor: if mark.name == "neck" && matches!(side, Side::Before | Side::Behind) {
+                            // It hangs from the side of the neck, however deep it is in the middle.
+                            top(&draft, number, edge.as_ref())
+                        } else {
+                            middle(&draft, number, edge.as_ref())
+                        },
                         gap,
                     },
                 ));
@@ -347,28 +352,43 @@ impl<'t> Evaluator<'t> {
     }
 }
 
-/// The drawing's y that comes to the landmark: of the named edge where it comes nearest to the
-/// line x = 0, else the top of the piece.
-fn anchor(draft: &Rc<Draft>, number: usize, edge: Option<&EdgeRef>) -> f64 {
-    let Some(piece) = draft.pieces.get(number) else { return 0.0 };
+/// The y of the drawing where the named edge comes nearest to the line x = 0; without an edge the
+/// top of the piece.
+fn middle(draft: &Rc<Draft>, number: usize, edge: Option<&EdgeRef>) -> f64 {
+    let Some(edge) = edge else { return top(draft, number, None) };
+    let nearest = walk(draft, number, edge)
+        .fold((f64::INFINITY, 0.0), |best, p| if p.x.abs() < best.0 - 1e-9 { (p.x.abs(), p.y) } else { best });
+    nearest.1
+}
+
+/// The highest y of the drawing that the named edge, or the whole piece, reaches.
+fn top(draft: &Rc<Draft>, number: usize, edge: Option<&EdgeRef>) -> f64 {
     let Some(edge) = edge else {
+        let Some(piece) = draft.pieces.get(number) else { return 0.0 };
         let points = piece.loops.first().map_or(&[][..], |ring| &ring.pieces);
         return points
             .iter()
             .map(|piece| kurbo::Shape::bounding_box(&piece.path).y1)
             .fold(f64::NEG_INFINITY, f64::max);
     };
-    let mut best = (f64::INFINITY, 0.0);
+    let top = walk(draft, number, edge).map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
+    if top.is_finite() { top } else { 0.0 }
+}
+
+/// Points along an edge of a piece.
+fn walk(
+    draft: &Rc<Draft>,
+    number: usize,
+    edge: &EdgeRef,
+) -> impl Iterator<Item = kurbo::Point> {
+    let mut points = Vec::new();
+    let Some(piece) = draft.pieces.get(number) else { return points.into_iter() };
     for found in edge.find().iter().filter(|found| found.piece == number) {
         for run in edge.runs(found) {
-            for i in 0..=64 {
-                let arc = run.from + (run.to - run.from) * f64::from(i) / 64.0;
-                let p = piece.point(&run, arc);
-                if p.x.abs() < best.0 - 1e-9 {
-                    best = (p.x.abs(), p.y);
-                }
-            }
+            points.extend((0..=64).map(|i| {
+                piece.point(&run, run.from + (run.to - run.from) * f64::from(i) / 64.0)
+            }));
         }
     }
-    best.1
+    points.into_iter()
 }

@@ -1,34 +1,31 @@
-//! Panels that nothing places: each is laid against the neighbour it is sewn to.
+//! Panels that neither text nor family places: each is laid against the neighbour it is sewn to.
 
 use super::drawing;
+use super::joins::{Joins, mean};
 use crate::mesh::compiled::Compiled;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Lays every panel that is not `done` against those that are, as long as a seam leads to one.
 /// What no seam leads to stays at the origin's plane, laid flat.
-pub(super) fn follow(compiled: &Compiled, done: &mut [bool], positions: &mut [Point3<f64>]) {
-    let owner = owners(compiled);
+pub(super) fn follow(
+    compiled: &Compiled,
+    joins: &Joins,
+    done: &mut [bool],
+    positions: &mut [Point3<f64>],
+) {
     loop {
         let mut progress = false;
         for number in 0..compiled.panels.len() {
             if done[number] {
                 continue;
             }
-            let mut pairs = Vec::new();
-            for seam in &compiled.seams {
-                for &[a, b] in &seam.pairs {
-                    let (a, b) = (a as usize, b as usize);
-                    if owner[a] == number && done[owner[b]] {
-                        pairs.push((a, b));
-                    } else if owner[b] == number && done[owner[a]] {
-                        pairs.push((b, a));
-                    }
-                }
-            }
+            let led = joins.of(number).filter(|seen| done[seen.other]);
+            let pairs: Vec<[usize; 2]> =
+                led.flat_map(|seen| seen.pairs().collect::<Vec<_>>()).collect();
             if pairs.len() < 2 {
                 continue;
             }
-            lay_against(compiled, number, &pairs, &owner, positions);
+            lay_against(compiled, number, &pairs, joins, positions);
             done[number] = true;
             progress = true;
         }
@@ -46,36 +43,25 @@ pub(super) fn follow(compiled: &Compiled, done: &mut [bool], positions: &mut [Po
     }
 }
 
-/// The panel of each particle.
-fn owners(compiled: &Compiled) -> Vec<usize> {
-    let mut owner = vec![0; compiled.particles.len()];
-    for (number, panel) in compiled.panels.iter().enumerate() {
-        for k in panel.particles.range() {
-            owner[k] = number;
-        }
-    }
-    owner
-}
-
 /// Moves panel `number` rigidly so that its seam points come near their partners and it goes on
 /// where the partner ends (best rotation: Kabsch 1976).
 fn lay_against(
     compiled: &Compiled,
     number: usize,
-    pairs: &[(usize, usize)],
-    owner: &[usize],
+    pairs: &[[usize; 2]],
+    joins: &Joins,
     positions: &mut [Point3<f64>],
 ) {
     let panel = &compiled.panels[number];
     let flat: Vec<Point3<f64>> =
         drawing(compiled, panel).map(|(_, [x, y])| Point3::new(x, y, 0.0)).collect();
     let first = panel.particles.range().start;
-    let mut own: Vec<Point3<f64>> = pairs.iter().map(|(a, _)| flat[a - first]).collect();
-    let mut goal: Vec<Point3<f64>> = pairs.iter().map(|(_, b)| positions[*b]).collect();
+    let mut own: Vec<Point3<f64>> = pairs.iter().map(|[a, _]| flat[a - first]).collect();
+    let mut goal: Vec<Point3<f64>> = pairs.iter().map(|[_, b]| positions[*b]).collect();
     // One more pair turns the panel away from its partner: own middle against the partner's
     // middle mirrored in the seam.
     let middle = mean(&flat);
-    let partner = owner[pairs[0].1];
+    let partner = joins.owner(pairs[0][1]);
     let beyond: Vec<Point3<f64>> =
         compiled.panels[partner].particles.range().map(|k| positions[k]).collect();
     let (seam_own, seam_goal) = (mean(&own), mean(&goal));
@@ -101,9 +87,4 @@ fn lay_against(
     for (k, place) in panel.particles.range().zip(&flat) {
         positions[k] = to + turn * (place - from);
     }
-}
-
-fn mean(points: &[Point3<f64>]) -> Point3<f64> {
-    let sum = points.iter().fold(Vector3::zeros(), |sum, p| sum + p.coords);
-    Point3::from(sum / points.len().max(1) as f64)
 }

@@ -5,6 +5,7 @@
 //! the fork a piece begins at the body's middle plane with its own inner edge, the rise. Legs that
 //! would reach down to the feet begin pushed up above them, in folds round the outside.
 
+use super::joins::{Joins, reach};
 use super::section::{Ring, Sections};
 use super::{Wrapped, by_layer, centre, drawing};
 use crate::garment::scene::Side;
@@ -42,9 +43,14 @@ pub(super) fn is_leg(wrapped: &Wrapped) -> bool {
 }
 
 /// Lays the pieces of all legs, one body and one layer of cloth after the other.
-pub(super) fn wrap(compiled: &Compiled, legs: &[&Wrapped], positions: &mut [Point3<f64>]) {
+pub(super) fn wrap(
+    compiled: &Compiled,
+    joins: &Joins,
+    legs: &[&Wrapped],
+    positions: &mut [Point3<f64>],
+) {
     for members in by_layer(compiled, legs) {
-        wrap_together(compiled, &members, positions);
+        wrap_together(compiled, joins, &members, positions);
     }
 }
 
@@ -60,7 +66,12 @@ fn outwards(wrapped: &Wrapped, sign: f64, x: f64) -> f64 {
     if wrapped.side == Side::Behind { -x * sign } else { x * sign }
 }
 
-fn wrap_together(compiled: &Compiled, members: &[&Wrapped], positions: &mut [Point3<f64>]) {
+fn wrap_together(
+    compiled: &Compiled,
+    joins: &Joins,
+    members: &[&Wrapped],
+    positions: &mut [Point3<f64>],
+) {
     let Some(first) = members.first() else { return };
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for member in members {
@@ -75,7 +86,7 @@ fn wrap_together(compiled: &Compiled, members: &[&Wrapped], positions: &mut [Poi
     }
     let rows = ((high - low) / ROW) as usize + 2;
     let pieces: Vec<Piece> =
-        members.iter().map(|wrapped| Piece::new(compiled, wrapped, low, rows)).collect();
+        members.iter().map(|wrapped| Piece::new(compiled, joins, wrapped, low, rows)).collect();
     // The fork: where a piece reaches farthest inwards.
     let inmost = |piece: &Piece| {
         let inner = |k: usize| piece.reach[k].map_or(f64::NEG_INFINITY, |r| r[1]);
@@ -188,32 +199,17 @@ impl Course {
 }
 
 impl<'a> Piece<'a> {
-    fn new(compiled: &Compiled, wrapped: &'a Wrapped<'a>, low: f64, rows: usize) -> Self {
-        let panel = wrapped.panel(compiled);
+    fn new(
+        compiled: &Compiled,
+        joins: &Joins,
+        wrapped: &'a Wrapped<'a>,
+        low: f64,
+        rows: usize,
+    ) -> Self {
         let sign = if centre(wrapped.body, wrapped.landmark).x < 0.0 { -1.0 } else { 1.0 };
-        let places: Vec<(usize, [f64; 2])> = drawing(compiled, panel).collect();
-        let of = |k: u32| places[k as usize - panel.particles.range().start].1;
-        let mut reach: Vec<Option<[f64; 2]>> = vec![None; rows];
-        let mut note = |row: usize, out: f64| {
-            let r = reach[row].get_or_insert([out, -out]);
-            *r = [r[0].max(out), r[1].max(-out)];
-        };
-        if let Some(ring) = panel.loops.first() {
-            for (i, k) in ring.iter().enumerate() {
-                // Every row that a side of the outline passes.
-                let (p, q) = (of(*k), of(ring[(i + 1) % ring.len()]));
-                let (a, b) = (height(wrapped, p[1]), height(wrapped, q[1]));
-                let (from, to) = ((a.min(b) - low) / ROW, (a.max(b) - low) / ROW);
-                for row in from.floor().max(0.0) as usize..=(to.ceil() as usize).min(rows - 1) {
-                    let t = if (b - a).abs() > 1e-9 {
-                        ((low + row as f64 * ROW - a) / (b - a)).clamp(0.0, 1.0)
-                    } else {
-                        0.5
-                    };
-                    note(row, outwards(wrapped, sign, p[0] + t * (q[0] - p[0])));
-                }
-            }
-        }
+        let at = |[x, y]: [f64; 2]| [outwards(wrapped, sign, x), height(wrapped, y)];
+        let reach = reach(compiled, joins, wrapped.number, &at, (low, ROW, rows));
+        let reach = reach.into_iter().map(|row| row.map(|[least, most]| [most, -least])).collect();
         Piece { wrapped, sign, reach }
     }
 }

@@ -1,9 +1,13 @@
-//! Panels wrapped round an arm or a leg: sleeves, trouser legs.
+//! Panels wrapped round an arm or a leg: sleeves with their cuffs, legs of one piece.
 
-use super::{Wrapped, centre, drawing};
+use super::centre;
+use super::family::Limb;
+use super::joins::{Joins, reach};
+use super::layplan::Lay;
 use crate::mesh::compiled::Compiled;
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
 /// Room left between the edges that meet under the limb, as a share of the width.
 const MEETING: f64 = 1.05;
@@ -14,16 +18,17 @@ const CLEAR: f64 = 0.015;
 /// Farthest way that a piece is moved along the limb to be clear of the trunk, m.
 const FARTHEST: f64 = 0.25;
 
-/// Wraps one panel. It is moved outwards along the limb until it is clear of the panels that are
-/// `done` already; sewing brings it back.
+/// Wraps a sleeve and what is sewn on to it. It is moved outwards along the limb until it is clear
+/// of the panels that are `done` already; sewing brings it back.
 pub(super) fn wrap(
     compiled: &Compiled,
-    wrapped: &Wrapped,
-    (points, radii): (&[Point3<f64>], &[f64]),
+    joins: &Joins,
+    limb: &Limb,
     done: &[bool],
     positions: &mut [Point3<f64>],
 ) {
-    let panel = wrapped.panel(compiled);
+    let wrapped = limb.root;
+    let Some((points, radii)) = wrapped.limb() else { return };
     let (start, end) = (points[0], points[points.len() - 1]);
     let axis = (end - start).normalize();
     let lateral = if end.x >= 0.0 { Vector3::x() } else { -Vector3::x() };
@@ -33,23 +38,40 @@ pub(super) fn wrap(
     // A limb of the body begins where its level lies along the axis.
     let level = wrapped.level.map_or(0.0, |name| (centre(wrapped.body, name) - start).dot(&axis));
     let thickest = radii.iter().copied().fold(0.0, f64::max);
-    let places: Vec<(usize, [f64; 2])> = drawing(compiled, panel).collect();
+    let own = std::iter::once((wrapped.number, Lay::default()));
+    let pieces: Vec<(usize, Lay)> = own.chain(limb.led.iter().copied()).collect();
+    let places: Vec<(usize, [f64; 2])> = pieces
+        .iter()
+        .flat_map(|(panel, lay)| {
+            let range = compiled.panels[*panel].particles.range();
+            range.map(|k| (k, lay.at(joins.drawn[k])))
+        })
+        .collect();
     let top = places.iter().map(|(_, p)| p[1]).fold(f64::NEG_INFINITY, f64::max);
     let low = places.iter().map(|(_, p)| p[1]).fold(f64::INFINITY, f64::min);
     if top < low {
         return;
     }
     let rows = ((top - low) / ROW) as usize + 2;
-    let mut reach = vec![0.0_f64; rows];
-    for (_, [x, y]) in &places {
-        let row = ((top - y) / ROW) as usize;
-        reach[row] = reach[row].max(x.abs());
+    let mut wide = vec![0.0_f64; rows];
+    for (panel, lay) in &pieces {
+        // Rows run down from the top.
+        let down = |p: [f64; 2]| {
+            let [x, y] = lay.at(p);
+            [x, top - y]
+        };
+        for (wide, own) in
+            wide.iter_mut().zip(reach(compiled, joins, *panel, &down, (0.0, ROW, rows)))
+        {
+            let Some([from, to]) = own else { continue };
+            *wide = wide.max(-from).max(to);
+        }
     }
     // From the top to the widest row the tube is as wide as there: a cap is part of the tube.
-    let widest = (0..rows).fold(0, |best, k| if reach[k] > reach[best] { k } else { best });
-    let mut radius: Vec<f64> = reach
+    let widest = (0..rows).fold(0, |best, k| if wide[k] > wide[best] { k } else { best });
+    let mut radius: Vec<f64> = wide
         .iter()
-        .map(|half| (2.0 * half * MEETING / std::f64::consts::TAU).max(thickest + wrapped.gap))
+        .map(|half| (2.0 * half * MEETING / TAU).max(thickest + wrapped.gap))
         .collect();
     for k in 0..widest {
         radius[k] = radius[widest];

@@ -1,11 +1,18 @@
 //! Where panels begin: laid flat in the world, wrapped round trunk or limb at a distance, put on
 //! like trousers, let down as a cone, or led by their seams to a neighbour.
 //!
+//! Pieces that seams join at their sides are first laid side by side in the plane ([`layplan`]),
+//! then rolled round the trunk together ([`trunk`]); what hangs on them by its upper or lower edge,
+//! a flounce, a waistband, makes a round of its own at its height, turned towards its partner.
+//!
 //! Wrapped panels keep their widths: every row of the drawing is laid along a closed line round
 //! the body whose length is at least the width of all that hangs there, so that seams begin
 //! nearly closed and nothing begins inside the body.
 
 mod cone;
+mod family;
+mod joins;
+mod layplan;
 mod led;
 mod leg;
 mod limb;
@@ -15,6 +22,9 @@ mod trunk;
 use crate::body::surface::{Landmark, Surface};
 use crate::garment::scene::{Placement, Side};
 use crate::mesh::compiled::{Compiled, MeshPanel};
+use cone::Whole;
+use family::{Families, Family};
+use joins::Joins;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// First positions of all particles, in the order of the mesh, m.
@@ -50,30 +60,46 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
             Placement::Led => {}
         }
     }
-    for each in &wrapped {
-        if each.is_cone(compiled) {
-            cone::lay(compiled, each, &mut positions);
-            done[each.number] = true;
-        }
-    }
-    let trunk: Vec<&Wrapped> =
-        wrapped.iter().filter(|w| !done[w.number] && w.limb().is_none()).collect();
-    trunk::wrap(compiled, &trunk, &mut positions);
-    for each in &trunk {
-        done[each.number] = true;
-    }
+    let joins = Joins::new(compiled);
     let legs: Vec<&Wrapped> = wrapped.iter().filter(|w| leg::is_leg(w)).collect();
-    leg::wrap(compiled, &legs, &mut positions);
-    for each in wrapped.iter().filter(|w| !leg::is_leg(w)) {
-        if let Some(limb) = each.limb() {
-            limb::wrap(compiled, each, limb, &done, &mut positions);
-        }
-    }
-    for each in &wrapped {
+    leg::wrap(compiled, &joins, &legs, &mut positions);
+    for each in &legs {
         done[each.number] = true;
     }
-    led::follow(compiled, &mut done, &mut positions);
+    let Families { trunk, limbs } = Families::new(compiled, &joins, &wrapped);
+    let mut waiting = trunk;
+    while !waiting.is_empty() {
+        let mut family = waiting.remove(next(&joins, &waiting, &done));
+        if family.root.is_cone(compiled, &joins) && !family.hung {
+            cone::let_down(compiled, &joins, family.root, &done, &mut positions);
+        } else {
+            trunk::roll(compiled, &joins, &mut family, &done, &mut positions);
+        }
+        for member in &family.members {
+            done[member.panel] = true;
+        }
+    }
+    let clear_of = done.clone();
+    for sleeve in &limbs {
+        limb::wrap(compiled, &joins, sleeve, &clear_of, &mut positions);
+        done[sleeve.root.number] = true;
+        for (panel, _) in &sleeve.led {
+            done[*panel] = true;
+        }
+    }
+    led::follow(compiled, &joins, &mut done, &mut positions);
     positions
+}
+
+/// Which family to lay next: fronts and backs first, then what is sewn to something that lies, then
+/// what is placed for itself.
+fn next(joins: &Joins, waiting: &[Family], done: &[bool]) -> usize {
+    let placed = |f: &Family| {
+        f.members.iter().any(|m| matches!(m.side, Side::Before | Side::Behind)) && !f.hung
+    };
+    let led = |f: &Family| f.members.iter().any(|m| joins.of(m.panel).any(|s| done[s.other]));
+    let first = |is: &dyn Fn(&Family) -> bool| waiting.iter().position(is);
+    first(&placed).or_else(|| first(&led)).or_else(|| first(&|f| !f.hung)).unwrap_or(0)
 }
 
 /// A panel to be wrapped.
@@ -100,14 +126,20 @@ impl Wrapped<'_> {
         }
     }
 
-    /// A piece laid all round with a hole in it: a circular skirt, a cloak.
-    fn is_cone(&self, compiled: &Compiled) -> bool {
-        self.side == Side::Around && self.limb().is_none() && self.panel(compiled).loops.len() > 1
+    /// A piece laid all round that is cut as a ring or most of one: a circular skirt, a cloak.
+    fn is_cone(&self, compiled: &Compiled, joins: &Joins) -> bool {
+        self.side == Side::Around
+            && self.limb().is_none()
+            && Whole::of(compiled, joins, self.number).is_some()
     }
 
-    /// Height of the landmark, m.
+    /// Height of the landmark, m; fronts and backs hang from the side of the neck.
     fn height(&self) -> f64 {
-        centre(self.body, self.landmark).y
+        let hangs = self.landmark == "neck" && matches!(self.side, Side::Before | Side::Behind);
+        match self.body.landmarks.get("neck_side.left").filter(|_| hangs) {
+            Some(Landmark::Point(point)) => point.y,
+            _ => centre(self.body, self.landmark).y,
+        }
     }
 }
 

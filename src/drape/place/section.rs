@@ -1,13 +1,24 @@
 //! Closed convex lines round a trunk, height by height.
 
 use crate::body::surface::{BodyPart, Surface};
+use nalgebra::Point3;
 
 /// Heights between two sections, m.
 const STEP: f64 = 0.01;
 /// Half the slab of skin that one section encloses, m; smooths the way from height to height.
 const SLAB: f64 = 0.04;
+/// Cloth that begins no further below the neck than this goes round it and not round the trunk, m.
+const COLLAR: f64 = 0.06;
 /// Corners of the disc by which a section is widened.
 const ROUND: usize = 48;
+
+/// The height on which a collar stands, at the sides of the neck, m; `None` if cloth that reaches down
+/// to `low` is none.
+pub(super) fn collar_base(body: &Surface, low: f64) -> Option<f64> {
+    let neck = body.landmarks.get("neck").map(|_| super::centre(body, "neck").y)?;
+    let side = body.landmarks.get("neck_side.left").map(|_| super::centre(body, "neck_side.left").y);
+    (low > neck - COLLAR).then_some(side.unwrap_or(neck))
+}
 
 /// Convex sections of trunk, neck and legs at equal steps of height, not yet widened.
 pub(super) struct Sections {
@@ -16,15 +27,18 @@ pub(super) struct Sections {
 }
 
 impl Sections {
-    /// Sections of `body` from `low` to `high`. Above the bust every section also encloses the
-    /// one at the bust, below the hip the one at the hip, so that cloth hangs straight there.
+    /// Sections of `body` from `low` to `high`. Of cloth that reaches over the bust every section
+    /// above also encloses the one at the bust, of cloth that reaches over the hip every one below,
+    /// so that it hangs straight there; what reaches neither, a band or a flounce, is straight.
     pub(super) fn new(body: &Surface, low: f64, high: f64) -> Self {
         let count = ((high - low) / STEP).ceil().clamp(1.0, 1000.0) as usize + 1;
-        let keep = |part: BodyPart| {
-            matches!(
-                part,
-                BodyPart::Trunk | BodyPart::Neck | BodyPart::LeftLeg | BodyPart::RightLeg
-            )
+        // A collar or a hood goes round neck and head.
+        let collar = collar_base(body, low).is_some();
+        let keep = |part: BodyPart| match part {
+            BodyPart::Neck => true,
+            BodyPart::Head => collar,
+            BodyPart::Trunk | BodyPart::LeftLeg | BodyPart::RightLeg => !collar,
+            BodyPart::LeftArm | BodyPart::RightArm => false,
         };
         let mut slabs: Vec<Vec<[f64; 2]>> = vec![Vec::new(); count];
         for (k, vertex) in body.vertices.iter().enumerate() {
@@ -43,18 +57,22 @@ impl Sections {
         let mut hulls: Vec<Vec<[f64; 2]>> = slabs.into_iter().map(hull).collect();
         let level = |name: &str| {
             let height = super::centre(body, name).y;
-            body.landmarks
-                .contains_key(name)
+            (body.landmarks.contains_key(name) && (low..=high).contains(&height))
                 .then(|| ((height - low) / STEP).round().clamp(0.0, (count - 1) as f64) as usize)
         };
-        if let Some(bust) = level("bust").or_else(|| level("chest")) {
+        let (bust, hip) = (level("bust").or_else(|| level("chest")), level("hip"));
+        if bust.is_none() && hip.is_none() {
+            let whole = hull(hulls.concat());
+            hulls.fill(whole);
+        }
+        if let Some(bust) = bust {
             for k in bust + 1..count {
                 let mut both = hulls[k].clone();
                 both.extend_from_slice(&hulls[k - 1]);
                 hulls[k] = hull(both);
             }
         }
-        if let Some(hip) = level("hip") {
+        if let Some(hip) = hip {
             for k in (0..hip).rev() {
                 let mut both = hulls[k].clone();
                 both.extend_from_slice(&hulls[k + 1]);
@@ -142,6 +160,24 @@ impl Ring {
     /// Its length, m.
     pub(super) fn girth(&self) -> f64 {
         self.lengths[self.lengths.len() - 1]
+    }
+
+    /// Which part of the round lies nearest to a place, from 0 to 1.
+    pub(super) fn share(&self, place: &Point3<f64>) -> f64 {
+        let mut nearest = (f64::INFINITY, 0.0);
+        for (k, pair) in self.points.windows(2).enumerate() {
+            let (a, b) = (pair[0], pair[1]);
+            let (d, p) = ([b[0] - a[0], b[1] - a[1]], [place.x - a[0], place.z - a[1]]);
+            let square = d[0] * d[0] + d[1] * d[1];
+            let t = if square > 0.0 { (p[0] * d[0] + p[1] * d[1]) / square } else { 0.0 };
+            let t = t.clamp(0.0, 1.0);
+            let far = libm::hypot(p[0] - t * d[0], p[1] - t * d[1]);
+            if far < nearest.0 {
+                let span = self.lengths[k + 1] - self.lengths[k];
+                nearest = (far, self.lengths[k] + t * span);
+            }
+        }
+        nearest.1 / self.girth().max(1e-9)
     }
 
     /// The point at arc length `s` (any number; it goes round) as x and z.

@@ -1,84 +1,193 @@
-//! Panels wrapped round the trunk: fronts, backs and tubes.
+//! Families of pieces rolled round the trunk: row by row along closed lines that are long enough
+//! for all that hangs there.
 
-use super::section::{Ring, Sections};
-use super::{Wrapped, by_layer, drawing};
+use super::family::{Family, Member};
+use super::joins::{Joins, reach};
+use super::layplan::{MEETING, middle};
+use super::section::{self, Ring, Sections};
 use crate::garment::scene::Side;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Point3;
+use std::f64::consts::TAU;
 
-/// Room left between panels that meet at the side, m.
-const MEETING: f64 = 0.01;
 /// Height of the rows whose widths are compared, m.
 const ROW: f64 = 0.01;
 
-/// Wraps the panels, one body and one layer of cloth after the other.
-pub(super) fn wrap(compiled: &Compiled, panels: &[&Wrapped], positions: &mut [Point3<f64>]) {
-    for members in by_layer(compiled, panels) {
-        wrap_together(compiled, &members, positions);
+/// Rolls a family round its body. What is sewn to panels that are `done` turns towards them, unless
+/// it is placed in front or behind.
+pub(super) fn roll(
+    compiled: &Compiled,
+    joins: &Joins,
+    family: &mut Family,
+    done: &[bool],
+    positions: &mut [Point3<f64>],
+) {
+    if family.hung {
+        hang(joins, family, done, positions);
     }
-}
-
-/// How far a row reaches to both sides of the middle, m: towards the wearer's left, right.
-#[derive(Clone, Copy, Default)]
-struct Reach {
-    left: f64,
-    right: f64,
-}
-
-fn wrap_together(compiled: &Compiled, members: &[&Wrapped], positions: &mut [Point3<f64>]) {
-    let Some(first) = members.first() else { return };
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for member in members {
-        for (_, [_, y]) in drawing(compiled, member.panel(compiled)) {
-            let height = member.height() + y - member.anchor;
-            low = low.min(height);
-            high = high.max(height);
+    let Some([mut low, mut high]) = heights(compiled, joins, &family.members) else { return };
+    if let Some(base) = section::collar_base(family.root.body, low) {
+        // A collar stands on the shoulders.
+        let up = (base - low).max(0.0);
+        for member in &mut family.members {
+            member.lay.origin[1] += up;
         }
+        (low, high) = (low + up, high + up);
     }
-    if low > high {
-        return;
-    }
-    let sections = Sections::new(first.body, low, high);
-    let rows = ((high - low) / ROW) as usize + 2;
-    let mut front = vec![Reach::default(); rows];
-    let mut back = vec![Reach::default(); rows];
-    for member in members {
-        for (_, [x, y]) in drawing(compiled, member.panel(compiled)) {
-            let row = ((member.height() + y - member.anchor - low) / ROW) as usize;
-            // Behind the body the viewer's right is the wearer's right.
-            let (reach, x) = match member.side {
-                Side::Behind => (&mut back[row], -x),
-                _ => (&mut front[row], x),
-            };
-            reach.left = reach.left.max(x);
-            reach.right = reach.right.max(-x);
-        }
-    }
-    let gap = members.iter().map(|m| m.gap).fold(f64::INFINITY, f64::min);
+    let sections = Sections::new(family.root.body, low, high);
+    let gap = family.gap;
+    turn_beside(joins, family, done, positions, &sections, gap);
+    let wanted = girths(compiled, joins, &family.members, low, sections.count());
     let gaps: Vec<f64> = (0..sections.count())
-        .map(|k| {
-            let row = k.min(rows - 1);
-            let left = front[row].left + back[row].left + MEETING;
-            let right = front[row].right + back[row].right + MEETING;
-            let wanted = 2.0 * left.max(right);
-            gap.max((wanted - sections.girth(k)) / std::f64::consts::TAU)
-        })
+        .map(|k| gap.max((wanted[k] - sections.girth(k)) / TAU))
         .collect();
-    let gaps = smooth_from_above(&gaps);
+    let gaps = if family.members.len() == 1 {
+        // A band keeps its length from row to row.
+        let longest = (0..sections.count())
+            .map(|k| sections.girth(k) + TAU * gaps[k])
+            .fold(0.0, f64::max);
+        (0..sections.count()).map(|k| (longest - sections.girth(k)) / TAU).collect()
+    } else {
+        smooth_from_above(&gaps)
+    };
     let rings: Vec<Ring> = (0..sections.count()).map(|k| sections.ring(k, gaps[k])).collect();
-    for member in members {
-        for (particle, [x, y]) in drawing(compiled, member.panel(compiled)) {
-            let height = member.height() + y - member.anchor;
+    if family.members.iter().all(|m| m.side == Side::Around) {
+        let mut turns = Vec::new();
+        for member in &family.members {
+            for [own, other] in pairs(joins, member.panel, done) {
+                let [x, height] = member.lay.at(joins.drawn[own]);
+                let ring = &rings[sections.at(height).0];
+                turns.push(ring.share(&positions[other]) - member.lay.part - x / ring.girth());
+            }
+        }
+        let turn = mean_turn(turns.into_iter());
+        for member in &mut family.members {
+            member.lay.part += turn.unwrap_or(0.0);
+        }
+    }
+    for member in &family.members {
+        for particle in compiled.panels[member.panel].particles.range() {
+            let [x, height] = member.lay.at(joins.drawn[particle]);
             let (k, t) = sections.at(height);
-            let walk = |ring: &Ring| match member.side {
-                Side::Behind => ring.point(ring.girth() / 2.0 + x),
-                _ => ring.point(x),
-            };
+            let walk = |ring: &Ring| ring.point(member.lay.part * ring.girth() + x);
             let (a, b) = (walk(&rings[k]), walk(&rings[(k + 1).min(rings.len() - 1)]));
             positions[particle] =
                 Point3::new(a[0] + t * (b[0] - a[0]), height, a[1] + t * (b[1] - a[1]));
         }
     }
+}
+
+/// Least and greatest height of a family's pieces, m.
+fn heights(compiled: &Compiled, joins: &Joins, members: &[Member]) -> Option<[f64; 2]> {
+    let all = members.iter().flat_map(|member| {
+        let particles = compiled.panels[member.panel].particles.range();
+        particles.map(|k| member.lay.at(joins.drawn[k])[1])
+    });
+    all.fold(None, |span: Option<[f64; 2]>, y| {
+        let [low, high] = span.unwrap_or([y; 2]);
+        Some([low.min(y), high.max(y)])
+    })
+}
+
+/// Pairs of a panel with panels that are `done`.
+fn pairs<'a>(
+    joins: &'a Joins,
+    panel: usize,
+    done: &'a [bool],
+) -> impl Iterator<Item = [usize; 2]> + 'a {
+    joins
+        .of(panel)
+        .filter(|seen| done[seen.other])
+        .flat_map(|seen| seen.pairs().collect::<Vec<_>>())
+}
+
+/// Lifts a family to the height of what it is sewn to.
+fn hang(joins: &Joins, family: &mut Family, done: &[bool], positions: &[Point3<f64>]) {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for member in &family.members {
+        for [own, other] in pairs(joins, member.panel, done) {
+            sum += positions[other].y - member.lay.at(joins.drawn[own])[1];
+            count += 1.0;
+        }
+    }
+    for member in &mut family.members {
+        member.lay.origin[1] += sum / f64::max(count, 1.0);
+    }
+}
+
+/// Turns pieces placed beside the body towards what they are sewn to; to their own side where that
+/// is nothing.
+fn turn_beside(
+    joins: &Joins,
+    family: &mut Family,
+    done: &[bool],
+    positions: &[Point3<f64>],
+    sections: &Sections,
+    gap: f64,
+) {
+    for member in family.members.iter_mut().filter(|m| m.side == Side::Beside) {
+        let seam: Vec<[usize; 2]> = pairs(joins, member.panel, done).collect();
+        let own: Vec<[f64; 2]> =
+            seam.iter().map(|[own, _]| member.lay.at(joins.drawn[*own])).collect();
+        let turn = mean_turn(seam.iter().zip(&own).map(|([_, other], place)| {
+            let (k, _) = sections.at(place[1]);
+            sections.ring(k, gap).share(&positions[*other])
+        }));
+        if let Some(turn) = turn {
+            member.lay.part = turn;
+            member.lay.origin[0] -= middle(&own)[0];
+        }
+    }
+}
+
+/// The length that each row's line must have for its pieces to lie side by side, m.
+fn girths(
+    compiled: &Compiled,
+    joins: &Joins,
+    members: &[Member],
+    low: f64,
+    rows: usize,
+) -> Vec<f64> {
+    // The pieces of one part of the round count as one.
+    let mut parts: Vec<(f64, Vec<Option<[f64; 2]>>)> = Vec::new();
+    for member in members {
+        let part = member.lay.part - member.lay.part.floor();
+        let own = reach(compiled, joins, member.panel, &|p| member.lay.at(p), (low, ROW, rows));
+        match parts.iter_mut().find(|(p, _)| *p == part) {
+            Some((_, rows)) => {
+                for (row, own) in rows.iter_mut().zip(own) {
+                    *row = match (*row, own) {
+                        (Some(a), Some(b)) => Some([a[0].min(b[0]), a[1].max(b[1])]),
+                        (a, b) => a.or(b),
+                    };
+                }
+            }
+            None => parts.push((part, own)),
+        }
+    }
+    parts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let girth = |row: usize| {
+        let here: Vec<(f64, [f64; 2])> =
+            parts.iter().filter_map(|(part, rows)| Some((*part, rows[row]?))).collect();
+        let mut girth = 0.0f64;
+        for (n, (part, own)) in here.iter().enumerate() {
+            let (next, theirs) = here[(n + 1) % here.len()];
+            let share = if n + 1 < here.len() { next - part } else { next + 1.0 - part };
+            girth = girth.max((own[1] - theirs[0] + MEETING) / share);
+        }
+        girth
+    };
+    (0..rows).map(girth).collect()
+}
+
+/// Mean of turns, each as a share of the whole round.
+pub(super) fn mean_turn(turns: impl Iterator<Item = f64>) -> Option<f64> {
+    let (mut x, mut y) = (0.0, 0.0);
+    for turn in turns {
+        x += libm::cos(turn * TAU);
+        y += libm::sin(turn * TAU);
+    }
+    (libm::hypot(x, y) > 1e-9).then(|| libm::atan2(y, x) / TAU)
 }
 
 /// Widens gaps until none differs from its neighbour by more than a slope of one half: cloth
