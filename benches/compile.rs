@@ -28,6 +28,7 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         allowance: 0.01,
         creases: Vec::new(),
         notches: Vec::new(),
+        bands: Vec::new(),
         surface: Surface::Fabric,
         placement: Placement::Led,
     };
@@ -39,6 +40,7 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         seams: Vec::new(),
         stitches: Vec::new(),
         nearby: Vec::new(),
+        patches: Vec::new(),
         bodies: Vec::new(),
         solids: Vec::new(),
         attachments: Vec::new(),

@@ -74,6 +74,7 @@ pub const CODES: &[Code] = &[
     code("E0503", "an edge sewn twice"),
     code("E0504", "edges in a sequence that do not join"),
     code("E0505", "halves that are not said"),
+    code("E0506", "a patch that reaches beyond the cloth below it"),
     code("E0601", "rows of unequal length"),
     code("E0602", "an unknown symbol in a chart"),
     code("E0603", "stitches that do not add up"),

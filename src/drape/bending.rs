@@ -12,6 +12,7 @@
 //!   ones), where a cell counts as the triangle whose tip is the middle of its far edge.
 
 use super::crease::Crease;
+use super::doubled;
 use super::weld::Weld;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Vector3;
@@ -119,13 +120,14 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> (Vec<Fold>, Vec<Crease>) {
         *pressed.entry([a.min(b), a.max(b)]).or_insert(0.0) += crease.angle;
     }
     let mut sides = Vec::new();
+    let more = doubled::more(compiled);
     for (number, panel) in compiled.panels.iter().enumerate() {
         let fabric = &compiled.fabrics[panel.fabric];
-        let [warp, weft] = fabric.bending.map(|b| b.max(0.0));
-        let mean = (warp * weft).sqrt();
         let h = panel.cell;
         for c in panel.cells.range() {
             let corners = compiled.cells[c].map(|p| weld.knot[p as usize]);
+            let [warp, weft] = [0, 1].map(|k| fabric.bending[k].max(0.0) + more[c].bending[k]);
+            let mean = (warp * weft).sqrt();
             let twist = [
                 (corners[0], 1.0 / h),
                 (corners[1], -1.0 / h),
@@ -194,7 +196,9 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> (Vec<Fold>, Vec<Crease>) {
             }
             let rigidity = |s: &Side| {
                 let panel = &compiled.panels[s.panel as usize];
-                let [warp, weft] = compiled.fabrics[panel.fabric].bending.map(|b| b.max(0.0));
+                let own = compiled.fabrics[panel.fabric].bending.map(|b| b.max(0.0));
+                let further = more[s.face as usize].bending;
+                let [warp, weft] = [0, 1].map(|k| own[k] + further[k]);
                 warp * s.warp + weft * (1.0 - s.warp)
             };
             // A seam is no crease, even where a crease of one of its panels ends on it.
@@ -215,7 +219,7 @@ pub fn folds(compiled: &Compiled, weld: &Weld) -> (Vec<Fold>, Vec<Crease>) {
                 for end in 0..2 {
                     let terms =
                         [(a.far[end], 1.0 / h), (a.edge[end], -2.0 / h), (b.far[end], 1.0 / h)];
-                    let fold = Fold::new(&terms, 0.5 * rigidity(a));
+                    let fold = Fold::new(&terms, 0.25 * (rigidity(a) + rigidity(b)));
                     add(fold, [a.far[end], b.far[end]]);
                 }
             } else {

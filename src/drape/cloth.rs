@@ -2,6 +2,7 @@
 
 use super::bending::{self, Fold};
 use super::crease::Crease;
+use super::doubled::{self, More};
 use super::grid::Taken;
 use super::matrix::Pattern;
 use super::membrane::{self, Triangle};
@@ -77,6 +78,7 @@ impl Cloth {
             weld,
             ..Cloth::default()
         };
+        let more = doubled::more(compiled);
         let mut damping = 0.0;
         #[allow(clippy::cast_possible_truncation)]
         let plane = |particles: &[u32]| {
@@ -94,27 +96,28 @@ impl Cloth {
             let fabric = &compiled.fabrics[panel.fabric];
             let h = panel.cell;
             cloth.cell = cloth.cell.min(h);
-            let mut lump = |cloth: &mut Cloth, knots: &[u32], area: f64| {
+            let mut lump = |cloth: &mut Cloth, knots: &[u32], area: f64, more: &More| {
+                let mass = fabric.mass.max(1e-4) + more.mass;
                 let share = area / knots.len() as f64;
                 for &k in knots {
                     let k = k as usize;
                     cloth.area[k] += share;
-                    cloth.mass[k] += share * fabric.mass.max(1e-4);
-                    cloth.thickness[k] = cloth.thickness[k].max(fabric.thickness);
+                    cloth.mass[k] += share * mass;
+                    cloth.thickness[k] = cloth.thickness[k].max(fabric.thickness + more.thickness);
                     cloth.friction[k] = cloth.friction[k].max(fabric.friction);
                 }
-                damping += area * fabric.mass.max(1e-4) * fabric.damping.clamp(0.0, 1.0);
+                damping += area * mass * fabric.damping.clamp(0.0, 1.0);
             };
-            let mut edges: Vec<([u32; 2], bool)> = Vec::new();
+            let mut edges: Vec<([u32; 2], bool, f64)> = Vec::new();
             for c in panel.cells.range() {
-                let particles = compiled.cells[c];
+                let (particles, more) = (compiled.cells[c], &more[c]);
                 let corners = particles.map(|p| cloth.weld.knot[p as usize]);
-                lump(&mut cloth, &corners, h * h);
+                lump(&mut cloth, &corners, h * h, more);
                 cloth.cells.push(Cell {
                     corners,
                     slots: [None; 12],
                     side: h,
-                    modulus: fabric.shear.max(0.0),
+                    modulus: fabric.shear.max(0.0) + more.shear,
                 });
                 cloth.faces.push([corners[0], corners[1], corners[2]]);
                 cloth.faces.push([corners[0], corners[2], corners[3]]);
@@ -124,22 +127,26 @@ impl Cloth {
                     *k = k.min(h);
                 }
                 let [a, b, c, d] = particles;
-                edges.extend([([a, b], false), ([d, c], false), ([b, c], true), ([a, d], true)]);
+                let [warp, weft] = more.tensile;
+                edges.extend([([a, b], false, weft), ([d, c], false, weft)]);
+                edges.extend([([b, c], true, warp), ([a, d], true, warp)]);
             }
-            edges.sort_unstable();
-            for same in edges.chunk_by(|a, b| a == b) {
-                let ([a, b], warp) = same[0];
+            edges.sort_by_key(|edge| (edge.0, edge.1));
+            for same in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+                let ([a, b], warp, _) = same[0];
+                let more: f64 = same.iter().map(|edge| edge.2).sum();
                 let modulus = fabric.tensile[usize::from(!warp)].max(1e-3);
                 cloth.springs.push(Spring {
                     ends: [a, b].map(|p| cloth.weld.knot[p as usize]),
                     slots: None,
                     rest: h,
-                    stiffness: 0.5 * modulus * same.len() as f64,
+                    stiffness: 0.5 * modulus * same.len() as f64 + 0.5 * more,
                     warp,
                 });
             }
             for t in panel.triangles.range() {
                 let particles = compiled.triangles[t];
+                let more = &more[compiled.cells.len() + t];
                 let corners = particles.map(|p| cloth.weld.knot[p as usize]);
                 let uv = particles.map(|p| compiled.particles[p as usize]);
                 cloth.faces.push(corners);
@@ -153,14 +160,14 @@ impl Cloth {
                     }
                 }
                 let Some((gradient, area)) = membrane::rest(uv) else { continue };
-                lump(&mut cloth, &corners, area);
+                lump(&mut cloth, &corners, area, more);
                 cloth.triangles.push(Triangle {
                     corners,
                     slots: [None; 6],
                     gradient,
                     area,
-                    tensile: fabric.tensile.map(|k| k.max(1e-3)),
-                    shear: fabric.shear.max(0.0),
+                    tensile: [0, 1].map(|k| fabric.tensile[k].max(1e-3) + more.tensile[k]),
+                    shear: fabric.shear.max(0.0) + more.shear,
                 });
             }
         }

@@ -25,7 +25,7 @@ pub struct Stats {
     pub particles: usize,
     /// Triangles, cells counted as two.
     pub triangles: usize,
-    /// Pairs of particles sewn together.
+    /// Pairs of particles sewn together, and particles sewn to faces.
     pub seam_pairs: usize,
     /// Threads that worked.
     pub threads: usize,
@@ -41,7 +41,7 @@ pub struct Stats {
     pub mean_warp_strain: f64,
     /// Mean size of strain along the weft, as a share.
     pub mean_weft_strain: f64,
-    /// Largest distance of a seam pair, m.
+    /// Largest distance of a seam pair, or of a patch's edge from its place, m.
     pub largest_seam_gap: f64,
     /// Deepest place of a particle inside a body or solid, m; 0 if none.
     pub deepest_penetration: f64,

@@ -5,15 +5,18 @@ pub mod bending;
 pub mod cloth;
 pub mod crease;
 pub mod crossing;
+pub mod doubled;
 pub mod draped;
 pub mod elastic;
 pub mod grid;
 pub mod hold;
 pub mod ladder;
+pub mod lay;
 pub mod layers;
 pub mod matrix;
 pub mod membrane;
 pub mod nearby;
+pub mod patch;
 pub mod place;
 pub mod precondition;
 pub mod proximity;
@@ -90,7 +93,9 @@ pub fn drape(
     surfaces.extend(finest.solids.iter().map(body::solid));
     let skin = Figures::new(&surfaces);
     let place = |compiled: &Compiled| -> Vec<Vector3<f64>> {
-        place::place(compiled, &surfaces[..bodies]).iter().map(|p| p.coords).collect()
+        let mut places = place::place(compiled, &surfaces[..bodies]);
+        lay::patches(compiled, &mut places);
+        places.iter().map(|p| p.coords).collect()
     };
     let near: Vec<Compiled>;
     let rungs = if rungs.iter().any(|compiled| !compiled.nearby.is_empty()) {

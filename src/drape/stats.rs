@@ -1,8 +1,11 @@
 //! The account of a drape: strains, gaps, depths, speeds, verdict. Measured on the result alone.
 
+use super::cloth::Cloth;
 use super::crossing;
 use super::draped::Stats;
+use super::patch::Patches;
 use super::skin::Skin;
+use super::weld::Weld;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -13,7 +16,8 @@ pub fn measure(compiled: &Compiled, x: &[Vector3<f64>], skin: &dyn Skin) -> Stat
         name: compiled.name.clone(),
         particles: compiled.particles.len(),
         triangles: compiled.cells.len() * 2 + compiled.triangles.len(),
-        seam_pairs: compiled.seams.iter().map(|s| s.pairs.len()).sum(),
+        seam_pairs: compiled.seams.iter().map(|s| s.pairs.len()).sum::<usize>()
+            + compiled.patches.iter().map(|p| p.stitches.len()).sum::<usize>(),
         threads: rayon::current_num_threads(),
         ..Stats::default()
     };
@@ -23,6 +27,7 @@ pub fn measure(compiled: &Compiled, x: &[Vector3<f64>], skin: &dyn Skin) -> Stat
         let [a, b] = pair.map(|p| x[p as usize]);
         stats.largest_seam_gap = stats.largest_seam_gap.max((a - b).norm());
     }
+    stats.largest_seam_gap = stats.largest_seam_gap.max(patch_gap(compiled, x));
     stats.deepest_penetration = x
         .par_iter()
         .map(|x| skin.nearest(x).map_or(0.0, |n| (-n.distance).max(0.0)))
@@ -30,6 +35,12 @@ pub fn measure(compiled: &Compiled, x: &[Vector3<f64>], skin: &dyn Skin) -> Stat
         .into_iter()
         .fold(0.0, f64::max);
     stats
+}
+
+/// How much farther than layers of cloth keep apart the edge of a patch is from its place, m.
+fn patch_gap(compiled: &Compiled, x: &[Vector3<f64>]) -> f64 {
+    let cloth = Cloth::new(compiled, Weld::new(x.len(), std::iter::empty()));
+    Patches::new(compiled, &cloth).gap(x)
 }
 
 /// Strains of the grid's edges, each counted once.

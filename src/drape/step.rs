@@ -12,6 +12,7 @@ use super::hold::Holds;
 use super::layers::Layers;
 use super::layers::touch::Touches;
 use super::matrix::add_scalar;
+use super::patch::Patches;
 use super::sewing::Sewing;
 use super::skin::{self, Contact, Push, Skin};
 use super::system::{Aim, System};
@@ -93,6 +94,8 @@ pub struct Workshop<'a> {
     last: Vec<Vector3<f64>>,
     /// Open seams.
     pub sewing: Sewing,
+    /// What is sewn on the face of other cloth.
+    pub patches: Patches,
     /// What is held.
     pub holds: Holds,
     /// Contact with skin.
@@ -135,6 +138,7 @@ impl<'a> Workshop<'a> {
         let layout = Layout::new(compiled, &weld);
         let mut cloth = Cloth::new(compiled, weld);
         let holds = Holds::new(compiled, surfaces, &cloth, &x);
+        let patches = Patches::new(compiled, &cloth);
         let system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
         let mut v = vec![Vector3::zeros(); x.len()];
@@ -149,6 +153,7 @@ impl<'a> Workshop<'a> {
             x,
             v,
             sewing,
+            patches,
             holds,
             contact,
             layers: None,
@@ -230,6 +235,7 @@ impl<'a> Workshop<'a> {
             }
             touches = layers.touch(&self.cloth, &start, &ahead, &slide);
         }
+        touches.0.extend(self.patches.touches(&start));
         let mut iterations = 0;
         for pass in 0..PASSES {
             let pushes = self.contact.push(&self.cloth, &start, &ahead, &slide, manner.grip);

@@ -55,6 +55,7 @@ impl Making {
                 seams: Vec::new(),
                 stitches: Vec::new(),
                 nearby: Vec::new(),
+                patches: Vec::new(),
                 bodies: Vec::new(),
                 solids: Vec::new(),
                 attachments: Vec::new(),
@@ -184,7 +185,9 @@ impl<'t> Evaluator<'t> {
                     .help("such as `panel front of denim { … }`"),
             );
         }
-        let clear = ["panel", "part", "place", "seam"].into_iter().all(|word| !fields.spoils(word));
+        let clear = ["panel", "part", "place", "seam", "patch"]
+            .into_iter()
+            .all(|word| !fields.spoils(word));
         self.schedule(&fields, &mut making);
         self.pictures(&fields, &mut making);
         if drawn && sewn && clear {
@@ -290,6 +293,15 @@ impl<'t> Evaluator<'t> {
             .map(|number| plied(number, draft.plies, making));
         making.broken |= fabric.is_none();
         let fabric = fabric.unwrap_or_default();
+        let mut bands: Vec<(&super::panel::Banded, usize)> = Vec::new();
+        for band in &draft.bands {
+            let number = match band.fabric {
+                Some(other) => self.fabric_number(other, band.span, making),
+                None => Some(fabric),
+            };
+            making.broken |= number.is_none();
+            bands.extend(number.map(|number| (band, number)));
+        }
         let plain = making.allowance;
         let allowance = |edge: &str| -> (f64, Corner) {
             let fits = |name: &Option<String>| name.as_ref().is_none_or(|name| name == edge);
@@ -332,6 +344,7 @@ impl<'t> Evaluator<'t> {
                 allowance: allowance("").0,
                 creases: piece.creases.clone(),
                 notches: piece.notches.clone(),
+                bands: bands.iter().flat_map(|(band, fabric)| piece.bands(band, *fabric)).collect(),
                 surface: Surface::Fabric,
                 placement: Placement::Led,
             });
@@ -440,6 +453,13 @@ impl<'t> Evaluator<'t> {
                     }
                 }
             }
+            for patch in &garment.patches {
+                for (from, to) in [(patch.host, patch.panel), (patch.panel, patch.host)] {
+                    if reached[from] && !std::mem::replace(&mut reached[to], true) {
+                        moved = true;
+                    }
+                }
+            }
             for seam in &garment.seams {
                 let any = seam
                     .a
@@ -499,6 +519,10 @@ impl<'t> Evaluator<'t> {
         for phrase in by_points.iter().chain(fields.all("button")).chain(fields.all("hook")) {
             self.within = Some((phrase.scope, self.waiting.len()));
             sewn &= self.stitch(phrase, making).is_some();
+        }
+        for phrase in fields.all("patch") {
+            self.within = Some((phrase.scope, self.waiting.len()));
+            sewn &= self.patch(phrase, making).is_some();
         }
         self.within = None;
         sewn

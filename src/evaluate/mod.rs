@@ -24,6 +24,7 @@ mod notch;
 mod operator;
 pub mod panel;
 mod part;
+mod patch;
 mod phrase;
 mod place;
 mod poison;

@@ -178,6 +178,7 @@ impl<'t> Evaluator<'t> {
             inside: false,
             plies: 1,
             allowances: Vec::new(),
+            bands: Vec::new(),
             counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
@@ -290,6 +291,7 @@ impl<'t> Evaluator<'t> {
             inside: false,
             plies: 1,
             allowances: Vec::new(),
+            bands: Vec::new(),
             counted: None,
             pieces: vec![cut_piece(&sheet, None, None)],
             drawn: edges,
@@ -366,6 +368,7 @@ fn panel(
         allowance: 0.0,
         creases: piece.creases.clone(),
         notches: piece.notches.clone(),
+        bands: Vec::new(),
         surface,
         placement: Placement::Flat { at, turn: turn.map(curve::turned) },
     }

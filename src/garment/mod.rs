@@ -31,6 +31,8 @@ pub struct Garment {
     pub stitches: Vec<seam::Stitches>,
     /// Rims sewn where they lie near each other.
     pub nearby: Vec<seam::Nearby>,
+    /// Pieces sewn flat on others.
+    pub patches: Vec<seam::Patch>,
     /// Wearers.
     pub bodies: Vec<scene::BodyRequest>,
     /// Balls, tables and the like.

@@ -33,6 +33,8 @@ pub struct Panel {
     pub creases: Vec<Crease>,
     /// Match marks on the outline, for the cutter.
     pub notches: Vec<Notch>,
+    /// Further cloth along its edges.
+    pub bands: Vec<Band>,
     /// What is woven, knitted or printed where.
     pub surface: Surface,
     /// Where it begins.
@@ -117,6 +119,22 @@ pub struct Crease {
     /// The angle at which the cloth rests, rad, −π to π: positive where its face is folded on
     /// itself.
     pub angle: f64,
+}
+
+/// Further cloth sewn down along an edge: a hem turned up, a facing, an interfacing. It is no piece
+/// of the drape; the cloth there is as heavy and as stiff as all its plies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Band {
+    /// Where it is declared.
+    pub span: Span,
+    /// The edge.
+    pub runs: Vec<Run>,
+    /// How far it reaches into the piece, m.
+    pub width: f64,
+    /// Number of its fabric.
+    pub fabric: usize,
+    /// Its plies.
+    pub plies: u32,
 }
 
 /// A mark on the outline.

@@ -125,3 +125,21 @@ pub struct Nearby {
     /// How far apart two particles may lie to be sewn, m.
     pub within: f64,
 }
+
+/// A piece sewn flat on the face of another along its edges: a pocket.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Patch {
+    /// As written, `pocket on front.left`.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// Number of the panel that lies on top.
+    pub panel: usize,
+    /// Number of the panel below it.
+    pub host: usize,
+    /// Takes a place (x, y) of its drawing to one of the host's, `(m0 x + m2 y + m4, m1 x + m3 y +
+    /// m5)`; a turn and a shift, m.
+    pub map: [f64; 6],
+    /// The edges that are sewn.
+    pub runs: Vec<PanelRun>,
+}

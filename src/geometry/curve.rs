@@ -69,6 +69,12 @@ pub fn quadratic(a: Point, b: Point, c: Point) -> BezPath {
     path
 }
 
+/// The turn by an angle about (0, 0), rad; anticlockwise if positive.
+pub fn turning(angle: f64) -> Affine {
+    let Vec2 { x, y } = unit(angle);
+    Affine::new([x, y, -y, x, 0.0, 0.0])
+}
+
 /// A straight line.
 pub fn line(a: Point, b: Point) -> BezPath {
     let mut path = BezPath::new();

@@ -5,6 +5,7 @@ use super::compiled::{Compiled, MeshAttachment, MeshEdge, MeshPanel, MeshPin, Me
 use super::matching::points_of;
 use super::outline::Grain;
 use super::panel::Cloth;
+use super::patch;
 use super::plan::Plan;
 use super::spacing::{Address, Spacing};
 use crate::garment::Garment;
@@ -123,6 +124,12 @@ pub fn assemble(
             };
             MeshPin { points, to: pin.to.clone() }
         })
+        .collect();
+    compiled.patches = garment
+        .patches
+        .iter()
+        .zip(&plan.patches)
+        .map(|(on, walks)| patch::sewn(garment, &compiled, on, &along(walks)))
         .collect();
     compiled.fabrics = garment.fabrics.clone();
     compiled.bodies = garment.bodies.clone();

@@ -28,8 +28,12 @@ pub struct Compiled {
     pub closures: Vec<MeshSeam>,
     /// Rims sewn where they lie near each other when the drape begins.
     pub nearby: Vec<MeshNearby>,
+    /// Panels sewn flat on others.
+    pub patches: Vec<MeshPatch>,
     /// Sides of cells and triangles along which the cloth is folded.
     pub creases: Vec<MeshCrease>,
+    /// Further cloth along edges.
+    pub bands: Vec<MeshBand>,
     /// Edges held to a body.
     pub attachments: Vec<MeshAttachment>,
     /// Particles held still.
@@ -124,6 +128,32 @@ pub struct MeshNearby {
     pub within: f64,
 }
 
+/// A panel that lies flat on the face of another, sewn to it along its edges.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshPatch {
+    /// As in the text.
+    pub name: String,
+    /// Number of the panel on top.
+    pub panel: usize,
+    /// Number of the panel below it.
+    pub host: usize,
+    /// Takes (u, v) of the one to (u, v) of the other, `(m0 u + m2 v + m4, m1 u + m3 v + m5)`.
+    pub map: [f64; 6],
+    /// Its particles that are sewn, each to a point of a face of the host.
+    pub stitches: Vec<MeshStitch>,
+}
+
+/// A particle sewn to a point of a face.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshStitch {
+    /// The particle.
+    pub particle: u32,
+    /// Three corners of a cell or triangle, anticlockwise.
+    pub corners: [u32; 3],
+    /// Their shares in the point; they add up to 1.
+    pub weights: [f64; 3],
+}
+
 /// A side of two cells or triangles of a panel at which the cloth rests folded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshCrease {
@@ -131,6 +161,19 @@ pub struct MeshCrease {
     pub side: [u32; 2],
     /// The angle at which it rests, rad: 0 is flat, positive where the face is folded on itself.
     pub angle: f64,
+}
+
+/// Faces of a panel under which further cloth lies: a hem, a facing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshBand {
+    /// Number of its fabric.
+    pub fabric: usize,
+    /// Its plies.
+    pub plies: u32,
+    /// The faces: cells by their numbers, triangles by theirs after the number of all cells.
+    pub faces: Vec<u32>,
+    /// Of each face the share that is covered.
+    pub shares: Vec<f64>,
 }
 
 /// Particles that follow a body.

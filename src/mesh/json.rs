@@ -57,8 +57,12 @@ pub fn write(compiled: &Compiled, mut out: impl Write) -> io::Result<()> {
     value(out, &compiled.closures)?;
     write!(out, ",\n\"nearby\":")?;
     value(out, &compiled.nearby)?;
+    write!(out, ",\n\"patches\":")?;
+    value(out, &compiled.patches)?;
     write!(out, ",\n\"creases\":")?;
     value(out, &compiled.creases)?;
+    write!(out, ",\n\"bands\":")?;
+    value(out, &compiled.bands)?;
     write!(out, ",\n\"attachments\":")?;
     value(out, &compiled.attachments)?;
     write!(out, ",\n\"pins\":")?;

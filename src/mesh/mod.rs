@@ -12,14 +12,17 @@ pub mod band;
 pub mod breakpoint;
 pub mod compiled;
 pub mod crease;
+pub mod doubled;
 pub mod grading;
 pub mod improve;
 pub mod json;
 pub mod lattice;
 pub mod limit;
+pub mod locate;
 pub mod matching;
 pub mod outline;
 pub mod panel;
+pub mod patch;
 pub mod plan;
 pub mod sharpness;
 pub mod spacing;
@@ -89,6 +92,7 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
     let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
     stitch::stitches(garment, &mut compiled)?;
+    compiled.bands = doubled::bands(garment, &compiled);
     compiled.creases = crease::creases(garment, &compiled);
     if options.atlas {
         atlas::draw(garment, &mut compiled);

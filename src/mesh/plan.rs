@@ -24,6 +24,8 @@ pub struct Plan {
     pub attachments: Vec<Vec<Walk>>,
     /// Walks of each pin that holds runs.
     pub pins: Vec<Vec<Walk>>,
+    /// Walks of the sewn edges of each patch.
+    pub patches: Vec<Vec<Walk>>,
     /// Walks of the named edges, by panel and edge.
     pub edges: Vec<Vec<Vec<Walk>>>,
     /// Which stretches between breakpoints share their count of steps.
@@ -58,6 +60,8 @@ impl Plan {
             Pinned::Point { .. } => Vec::new(),
         });
         let pins = pins.collect();
+        let patches = garment.patches.iter().map(|on| rings.walks(outlines, runs(&on.runs)));
+        let patches = patches.collect();
         let mut edges = Vec::new();
         for (number, panel) in garment.panels.iter().enumerate() {
             let walks = panel
@@ -86,7 +90,7 @@ impl Plan {
             });
             said.collect::<Vec<_>>()
         })?;
-        Ok(Plan { rings, seams, attachments, pins, edges, classes })
+        Ok(Plan { rings, seams, attachments, pins, patches, edges, classes })
     }
 
     /// The cut lines of one panel as points, and their addresses.

@@ -102,6 +102,9 @@ fn particles(compiled: &Compiled, flaws: &mut Vec<Flaw>) {
     let any = Stretch { start: 0, end: count };
     let pairs = compiled.seams.iter().flat_map(|seam| seam.pairs.iter().flatten());
     check("a seam", &mut pairs.copied(), any);
+    let stitches = compiled.patches.iter().flat_map(|patch| &patch.stitches);
+    let ends = stitches.flat_map(|s| s.corners.into_iter().chain([s.particle]));
+    check("a patch", &mut ends.into_iter(), any);
     let held = compiled.attachments.iter().flat_map(|held| &held.points);
     check("an attachment", &mut held.copied(), any);
     check("a pin", &mut compiled.pins.iter().flat_map(|pin| &pin.points).copied(), any);

@@ -2,6 +2,8 @@
 
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+mod hem;
+mod patch;
 mod pattern;
 
 use darzi::drape::draped::{Draped, Verdict};

@@ -98,6 +98,7 @@ pub fn outline(name: &str, pieces: Vec<BezPath>, names: &[&str], placement: Plac
         allowance: 0.01,
         creases: Vec::new(),
         notches: Vec::new(),
+        bands: Vec::new(),
         surface: Surface::Fabric,
         placement,
     }
@@ -163,6 +164,7 @@ pub fn garment(
         seams,
         stitches: Vec::new(),
         nearby: Vec::new(),
+        patches: Vec::new(),
         bodies: vec![lady()],
         solids: Vec::new(),
         attachments,

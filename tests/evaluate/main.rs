@@ -8,5 +8,6 @@ mod garments;
 mod library;
 mod operations;
 mod parts;
+mod patches;
 mod records;
 mod tour;

@@ -408,3 +408,31 @@ fn points_are_sewn_to_points() {
         assert_eq!(codes(&tube("", line)).first().map(String::as_str), Some(code), "{line}");
     }
 }
+
+#[test]
+fn a_hem_is_cut_on_and_lies_under_its_edge() {
+    let hemmed = garment(
+        "rectangle 60cm x 40cm; hem on bottom depth 3cm double; facing on top width 5cm of denim
+         interfacing on top width 4cm of denim",
+        "",
+    );
+    let panel = &hemmed.panels[0];
+    let allowance = |name: &str| {
+        panel.edges.iter().find(|edge| edge.name == name).map(|edge| edge.allowance).unwrap()
+    };
+    // Turned twice, it takes twice its depth and adds two plies.
+    assert!((allowance("bottom") - 0.06).abs() < 1e-12);
+    assert!((allowance("top") - 0.01).abs() < 1e-12);
+    let bands: Vec<_> = panel
+        .bands
+        .iter()
+        .map(|band| {
+            let fabric = hemmed.fabrics[band.fabric].name.as_str();
+            (fabric, band.plies, (band.width * 1e3).round() as i64, band.runs.len())
+        })
+        .collect();
+    assert_eq!(bands, [("cotton", 2, 30, 1), ("denim", 1, 50, 1), ("denim", 1, 40, 1)]);
+    assert_eq!(told("rectangle 60cm x 40cm; hem on botom depth 3cm"), ["E0204"]);
+    assert_eq!(told("rectangle 60cm x 40cm; hem on bottom depth 3m"), ["E0303"]);
+    assert_eq!(told("rectangle 60cm x 40cm; facing on bottom width 3cm of cottn"), ["E0201"]);
+}

@@ -103,6 +103,7 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
             allowance: 0.01,
             creases: vec![],
             notches: vec![],
+            bands: vec![],
             surface,
             placement: placement.clone(),
         });
@@ -130,6 +131,7 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
         seams: vec![],
         stitches: vec![],
         nearby: vec![],
+        patches: vec![],
         bodies: vec![],
         solids: vec![],
         attachments: vec![],

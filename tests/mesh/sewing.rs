@@ -83,6 +83,7 @@ pub fn panel(name: &str, loops: Vec<Loop>, cell: f64) -> Panel {
         allowance: 0.01,
         creases: Vec::new(),
         notches: Vec::new(),
+        bands: Vec::new(),
         surface: Surface::Fabric,
         placement: Placement::Led,
     }
@@ -110,6 +111,7 @@ pub fn garment(panels: Vec<Panel>, seams: Vec<Seam>) -> Garment {
         seams,
         stitches: Vec::new(),
         nearby: Vec::new(),
+        patches: Vec::new(),
         bodies: Vec::new(),
         solids: Vec::new(),
         attachments: Vec::new(),

@@ -61,6 +61,16 @@ const SELDOM: u32 = 10;
 /// Slide in a step from which friction is full, m.
 const PLAY: f64 = 2.0e-5;
 
+/// Distance that a knot's cloth keeps from others, m.
+pub fn apart(cloth: &Cloth, knot: u32) -> f64 {
+    distance(cloth.thickness[knot as usize], cloth.spacing[knot as usize])
+}
+
+/// The same for cloth of some thickness whose edges are at least `space` long, m.
+pub fn distance(thickness: f64, space: f64) -> f64 {
+    thickness.max(THIN).min(SHARE * space)
+}
+
 /// Features that may come near each other.
 #[derive(Clone, Copy, Debug)]
 struct Near {
@@ -121,13 +131,11 @@ impl Layers {
                 owned
             })
             .collect();
-        let apart = cloth.thickness.iter().zip(&cloth.spacing);
-        let apart = apart.map(|(thick, space)| thick.max(THIN).min(SHARE * space));
         let mut layers = Layers {
             faces,
             owned,
             tree: Tree::new(cloth),
-            apart: apart.collect(),
+            apart: (0..cloth.knots() as u32).map(|k| apart(cloth, k)).collect(),
             widest: SLACK * cloth.cell,
             tangled: vec![false; cloth.knots()],
             open: vec![false; cloth.knots()],

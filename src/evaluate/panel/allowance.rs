@@ -3,6 +3,7 @@
 use super::super::Evaluator;
 use super::super::fields::Fields;
 use super::CutPiece;
+use super::band;
 use crate::garment::panel::Corner;
 use crate::units::Dimension;
 
@@ -20,6 +21,14 @@ impl<'t> Evaluator<'t> {
             let width = self.within_range(arg, Dimension::LENGTH, 0.0, WIDEST)?;
             allowances.push((None, width, Corner::default()));
         }
+        // What is turned up for a hem is cut on to the piece; `leave` has the last word.
+        for phrase in fields.all("hem") {
+            let depth = self.quantity(phrase.value("depth")?, Dimension::LENGTH)?;
+            for arg in phrase.values("on") {
+                let name = self.name_of(arg)?.text.clone();
+                allowances.push((Some(name), band::turned(phrase, depth), Corner::Mitre));
+            }
+        }
         for phrase in fields.all("leave") {
             let width = self.within_range(phrase.arg(0)?, Dimension::LENGTH, 0.0, WIDEST)?;
             let corner = match phrase.word_of("corner") {
@@ -34,12 +43,15 @@ impl<'t> Evaluator<'t> {
         Some(allowances)
     }
 
-    /// Whether all edges of which an allowance is said are edges of the piece.
+    /// Whether all edges of which an allowance or a band is said are edges of the piece.
     pub(super) fn allowed_edges(&mut self, fields: &Fields<'t>, pieces: &[CutPiece]) -> bool {
         let known: Vec<String> =
             pieces.iter().flat_map(|piece| &piece.edges).map(|edge| edge.name.clone()).collect();
         let mut sound = true;
-        for arg in fields.all("leave").flat_map(|phrase| phrase.values("on")) {
+        let said = fields.phrases.iter().filter(|phrase| {
+            phrase.word.name == "leave" || band::BANDS.contains(&phrase.word.name)
+        });
+        for arg in said.flat_map(|phrase| phrase.values("on")) {
             if let Some(name) = self.name_of(arg)
                 && !known.contains(&name.text)
             {

@@ -1,6 +1,7 @@
 //! Panels: from the words of a panel to cut pieces with named edges.
 
 mod allowance;
+mod band;
 mod crease;
 mod dart;
 pub mod edge;
@@ -21,8 +22,9 @@ use super::fields::Fields;
 use super::item::{ItemId, State};
 use super::scope::ScopeId;
 use crate::diagnostic::Span;
-use crate::garment::panel::{Corner, Crease, Loop, Notch, Run};
+use crate::garment::panel::{Band, Corner, Crease, Loop, Notch, Run};
 use crate::garment::seam::SeamKind;
+pub use band::Banded;
 use kurbo::{BezPath, Point};
 use sheet::Drawn;
 use std::rc::Rc;
@@ -76,6 +78,8 @@ pub struct Draft {
     pub plies: u32,
     /// Seam allowances, the last that fits an edge counts: its name, or all edges; m.
     pub allowances: Vec<(Option<String>, f64, Corner)>,
+    /// Further cloth along its edges.
+    pub bands: Vec<Banded>,
     /// Its particles, where they are counted.
     pub counted: Option<Counted>,
     /// Edges as drawn, before folds and darts.
@@ -159,6 +163,22 @@ pub struct CutJoin {
 }
 
 impl CutPiece {
+    /// A band along each edge of its names.
+    pub(super) fn bands<'p>(
+        &'p self,
+        said: &'p Banded,
+        fabric: usize,
+    ) -> impl Iterator<Item = Band> + 'p {
+        let edges = self.edges.iter().filter(|edge| said.edges.contains(&edge.name));
+        edges.map(move |edge| Band {
+            span: said.span,
+            runs: edge.runs.iter().map(|(run, _)| *run).collect(),
+            width: said.width,
+            fabric,
+            plies: said.plies,
+        })
+    }
+
     /// The path of a run's piece.
     pub fn path(&self, run: &Run) -> Option<&BezPath> {
         self.loops.get(run.ring)?.pieces.get(run.piece).map(|piece| &piece.path)

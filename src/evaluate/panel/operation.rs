@@ -31,6 +31,7 @@ impl<'t> Evaluator<'t> {
             None => Some(1),
         };
         let allowances = self.allowances(&fields);
+        let bands = self.bands(&fields);
         let layer = match fields.value("layer") {
             None => Some((0, false)),
             Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => {
@@ -112,7 +113,7 @@ impl<'t> Evaluator<'t> {
             sound &= self.sound_piece(piece, &name, span);
         }
         let (grain, cell, (layer, inside)) = (grain?, cell?, layer?);
-        let (plies, allowances) = (plies?, allowances?);
+        let (plies, allowances, bands) = (plies?, allowances?, bands?);
         sound &= self.allowed_edges(&fields, &pieces);
         sound.then_some(Draft {
             item,
@@ -126,6 +127,7 @@ impl<'t> Evaluator<'t> {
             inside,
             plies,
             allowances,
+            bands,
             counted,
             drawn,
             pieces,

@@ -55,6 +55,11 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "hooks and eyes, as buttons; at the edges themselves unless said otherwise",
             ),
             action(
+                "patch",
+                "PIECE on PIECE at POINT [ turn ANGLE ] [ open EDGE,… ]",
+                "sews a piece flat on another along its edges, but for the open ones; (0, 0) of its drawing comes to the point of the other's: `patch pocket on front.left at (14cm, -22cm) open top`",
+            ),
+            action(
                 "place",
                 "PIECE ( before PLACE | behind PLACE | around PLACE | beside PLACE | at POINT ) [ level PLACE ] [ gap LENGTH ] [ turn ANGLES ]",
                 "where a piece begins; gap 3cm unless said otherwise",

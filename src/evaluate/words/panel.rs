@@ -56,6 +56,21 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "LENGTH on EDGE,… [ corner mitre|square|round ]",
                 "the seam allowance beyond some edges, and how it is cut at their ends =mitre",
             ),
+            action(
+                "hem",
+                "on EDGE,… depth LENGTH [ double ]",
+                "cloth turned up and sewn down: it is cut on to the edge, and the band is as heavy and stiff as two plies, turned twice with `double` as three",
+            ),
+            action(
+                "facing",
+                "on EDGE,… width LENGTH [ of FABRIC ]",
+                "a band of further cloth beneath edges, of the same fabric unless said otherwise",
+            ),
+            action(
+                "interfacing",
+                "on EDGE,… width LENGTH of FABRIC",
+                "a band of stiffer cloth beneath edges",
+            ),
             action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
             action(
                 "pair",
