@@ -106,6 +106,15 @@ fn measures_stand_behind_the_point_of_a_wearer() {
 }
 
 #[test]
+fn values_stand_behind_the_point_of_a_record() {
+    let mut client = client();
+    let text = "    let box = { wide: 12cm, deep: 3cm }\n    let a = box.§\n}\n";
+    let found = offered(&mut client, text);
+    has(&found, &["wide", "deep"]);
+    lacks(&found, &["length", "x"]);
+}
+
+#[test]
 fn the_library_is_offered_by_kind() {
     let mut client = client();
     let found = offered(&mut client, "    panel back of §");
