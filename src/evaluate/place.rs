@@ -337,7 +337,9 @@ impl<'t> Evaluator<'t> {
                         landmark: mark.on(side_name.as_deref()),
                         level: level.as_ref().map(|level| level.on(side_name.as_deref())),
                         side,
-                        anchor: if mark.name == "neck" && matches!(side, Side::Before | Side::Behind) {
+                        anchor: if mark.name == "neck"
+                            && matches!(side, Side::Before | Side::Behind)
+                        {
                             // It hangs from the side of the neck, however deep it is in the middle.
                             top(&draft, number, edge.as_ref())
                         } else {
@@ -356,8 +358,9 @@ impl<'t> Evaluator<'t> {
 /// top of the piece.
 fn middle(draft: &Rc<Draft>, number: usize, edge: Option<&EdgeRef>) -> f64 {
     let Some(edge) = edge else { return top(draft, number, None) };
-    let nearest = walk(draft, number, edge)
-        .fold((f64::INFINITY, 0.0), |best, p| if p.x.abs() < best.0 - 1e-9 { (p.x.abs(), p.y) } else { best });
+    let nearest = walk(draft, number, edge).fold((f64::INFINITY, 0.0), |best, p| {
+        if p.x.abs() < best.0 - 1e-9 { (p.x.abs(), p.y) } else { best }
+    });
     nearest.1
 }
 
@@ -376,18 +379,16 @@ fn top(draft: &Rc<Draft>, number: usize, edge: Option<&EdgeRef>) -> f64 {
 }
 
 /// Points along an edge of a piece.
-fn walk(
-    draft: &Rc<Draft>,
-    number: usize,
-    edge: &EdgeRef,
-) -> impl Iterator<Item = kurbo::Point> {
+fn walk(draft: &Rc<Draft>, number: usize, edge: &EdgeRef) -> impl Iterator<Item = kurbo::Point> {
     let mut points = Vec::new();
     let Some(piece) = draft.pieces.get(number) else { return points.into_iter() };
     for found in edge.find().iter().filter(|found| found.piece == number) {
         for run in edge.runs(found) {
-            points.extend((0..=64).map(|i| {
-                piece.point(&run, run.from + (run.to - run.from) * f64::from(i) / 64.0)
-            }));
+            points.extend(
+                (0..=64).map(|i| {
+                    piece.point(&run, run.from + (run.to - run.from) * f64::from(i) / 64.0)
+                }),
+            );
         }
     }
     points.into_iter()

@@ -46,9 +46,10 @@ impl Whole {
             let middle = middle(&hole);
             return Some(Whole { middle, inner: girth / TAU, sweep: TAU, bisector: 0.0 });
         }
-        let arcs = panel.edges.iter().filter_map(|edge| {
-            Arc::of(&edge.points.iter().map(at).collect::<Vec<_>>())
-        });
+        let arcs = panel
+            .edges
+            .iter()
+            .filter_map(|edge| Arc::of(&edge.points.iter().map(at).collect::<Vec<_>>()));
         let inner = arcs.min_by(|a, b| a.radius.total_cmp(&b.radius))?;
         Some(Whole {
             middle: inner.middle,
@@ -90,10 +91,8 @@ impl Arc {
             return None;
         }
         let (pp, qq) = (p[0] * p[0] + p[1] * p[1], q[0] * q[0] + q[1] * q[1]);
-        let middle = [
-            a[0] + (q[1] * pp - p[1] * qq) / twice,
-            a[1] + (p[0] * qq - q[0] * pp) / twice,
-        ];
+        let middle =
+            [a[0] + (q[1] * pp - p[1] * qq) / twice, a[1] + (p[0] * qq - q[0] * pp) / twice];
         let radius = distance(a, middle);
         let round = points.iter().all(|p| (distance(*p, middle) - radius).abs() < 0.02 * radius);
         let angle = |p: [f64; 2]| libm::atan2(p[0] - middle[0], -(p[1] - middle[1]));
@@ -165,12 +164,7 @@ pub(super) fn let_down(
 
 /// On which side of a slit in a whole round its particles lie, -1 or 1: the two sides are drawn in
 /// one place.
-fn sides(
-    compiled: &Compiled,
-    joins: &Joins,
-    number: usize,
-    whole: &Whole,
-) -> BTreeMap<usize, f64> {
+fn sides(compiled: &Compiled, joins: &Joins, number: usize, whole: &Whole) -> BTreeMap<usize, f64> {
     let panel = &compiled.panels[number];
     let cells = compiled.cells[panel.cells.range()].iter().map(|c| &c[..]);
     let triangles = compiled.triangles[panel.triangles.range()].iter().map(|t| &t[..]);
@@ -183,7 +177,11 @@ fn sides(
         let before = sides.len();
         for face in &faces {
             let known = face.iter().find_map(|k| {
-                if doubtful(*k) { sides.get(&(*k as usize)).copied() } else { Some(part(*k).signum()) }
+                if doubtful(*k) {
+                    sides.get(&(*k as usize)).copied()
+                } else {
+                    Some(part(*k).signum())
+                }
             });
             let Some(side) = known else { continue };
             for k in face.iter().filter(|k| doubtful(**k)) {

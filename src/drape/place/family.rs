@@ -19,6 +19,20 @@ pub(super) struct Family<'a> {
     pub hung: bool,
 }
 
+impl Family<'_> {
+    /// Least and greatest height of its pieces as they lie, m; `None` if there are none.
+    pub fn heights(&self, compiled: &Compiled, joins: &Joins) -> Option<[f64; 2]> {
+        let all = self.members.iter().flat_map(|member| {
+            let particles = compiled.panels[member.panel].particles.range();
+            particles.map(|k| member.lay.at(joins.drawn[k])[1])
+        });
+        all.fold(None, |span: Option<[f64; 2]>, y| {
+            let [low, high] = span.unwrap_or([y; 2]);
+            Some([low.min(y), high.max(y)])
+        })
+    }
+}
+
 /// A piece of a family.
 pub(super) struct Member {
     /// Its panel.
@@ -91,7 +105,9 @@ impl<'a> Families<'a> {
         let Family { root, gap, .. } = self.trunk[family];
         let side = partner.side;
         let upright = Lay { turn: layplan::turn(joins, &seen, &partner.lay), ..Lay::default() };
-        if layplan::is_beside(joins, &seen, &upright, &partner.lay) && !root.is_cone(compiled, joins) {
+        if layplan::is_beside(joins, &seen, &upright, &partner.lay)
+            && !root.is_cone(compiled, joins)
+        {
             let lay = layplan::lay_beside(compiled, joins, (panel, &seen), &partner.lay, None);
             self.trunk[family].members.push(Member { panel, lay, side });
         } else {
@@ -101,9 +117,28 @@ impl<'a> Families<'a> {
         true
     }
 
-    /// Makes one family of those whose led pieces meet at their sides: a front and a back that have
-    /// side pieces between them.
+    /// Makes one family of those whose led pieces meet at their sides, a front and a back that have
+    /// side pieces between them, and of a front and a back at one height.
     fn unite(&mut self, compiled: &Compiled, joins: &Joins) {
+        let beside = |a: &Family, b: &Family| {
+            a.members.iter().any(|m| {
+                joins.of(m.panel).any(|seen| {
+                    b.members.iter().any(|n| {
+                        n.panel == seen.other && layplan::is_beside(joins, &seen, &m.lay, &n.lay)
+                    })
+                })
+            })
+        };
+        let is = |f: &Family, side: Side| f.members.iter().all(|m| m.side == side);
+        let opposite = |a: &Family, b: &Family| {
+            let turned = is(a, Side::Before) && is(b, Side::Behind);
+            if !turned && !(is(a, Side::Behind) && is(b, Side::Before)) {
+                return false;
+            }
+            let (a, b) = (a.heights(compiled, joins), b.heights(compiled, joins));
+            let (Some(a), Some(b)) = (a, b) else { return false };
+            a[1].min(b[1]) - a[0].max(b[0]) > 0.5 * (a[1] - a[0]).min(b[1] - b[0])
+        };
         let meet = |a: &Family, b: &Family| {
             let apart = a.hung
                 || b.hung
@@ -111,15 +146,7 @@ impl<'a> Families<'a> {
                 || a.root.panel(compiled).layer != b.root.panel(compiled).layer
                 || a.root.is_cone(compiled, joins)
                 || b.root.is_cone(compiled, joins);
-            !apart
-                && a.members.iter().any(|m| {
-                    joins.of(m.panel).any(|seen| {
-                        b.members.iter().any(|n| {
-                            n.panel == seen.other
-                                && layplan::is_beside(joins, &seen, &m.lay, &n.lay)
-                        })
-                    })
-                })
+            !apart && (beside(a, b) || opposite(a, b))
         };
         let mut first = 0;
         while first < self.trunk.len() {
@@ -167,7 +194,13 @@ fn side_by_side<'a>(
         let part = match w.side {
             Side::Before | Side::Around => 0.0,
             Side::Behind => 0.5,
-            Side::Beside => if right { 0.75 } else { 0.25 },
+            Side::Beside => {
+                if right {
+                    0.75
+                } else {
+                    0.25
+                }
+            }
         };
         Lay { part, turn: 0.0, origin: [0.0, w.height() - w.anchor] }
     };
@@ -193,7 +226,8 @@ fn side_by_side<'a>(
             for seen in joins.of(panel).filter(|s| s.count() > 1) {
                 let Some(n) = trunk.iter().position(|w| w.number == seen.other) else { continue };
                 let other = trunk[n];
-                if apart(here, other) || !layplan::is_beside(joins, &seen, &partner, &start(other)) {
+                if apart(here, other) || !layplan::is_beside(joins, &seen, &partner, &start(other))
+                {
                     continue;
                 }
                 sides += 1;

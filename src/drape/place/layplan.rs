@@ -83,11 +83,8 @@ pub(super) fn lay_beside(
     let goal: Vec<[f64; 2]> = seen.pairs().map(|[_, b]| partner.at(joins.drawn[b])).collect();
     let (m, n) = (middle(&own), middle(&goal));
     lay.origin = [n[0] - m[0], height.unwrap_or(n[1] - m[1])];
-    let all: Vec<[f64; 2]> = compiled.panels[panel]
-        .particles
-        .range()
-        .map(|k| lay.at(joins.drawn[k]))
-        .collect();
+    let all: Vec<[f64; 2]> =
+        compiled.panels[panel].particles.range().map(|k| lay.at(joins.drawn[k])).collect();
     let side = if middle(&all)[0] < n[0] { -1.0 } else { 1.0 };
     let low = all.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min);
     let high = all.iter().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);

@@ -69,10 +69,8 @@ pub(super) fn wrap(
     }
     // From the top to the widest row the tube is as wide as there: a cap is part of the tube.
     let widest = (0..rows).fold(0, |best, k| if wide[k] > wide[best] { k } else { best });
-    let mut radius: Vec<f64> = wide
-        .iter()
-        .map(|half| (2.0 * half * MEETING / TAU).max(thickest + wrapped.gap))
-        .collect();
+    let mut radius: Vec<f64> =
+        wide.iter().map(|half| (2.0 * half * MEETING / TAU).max(thickest + wrapped.gap)).collect();
     for k in 0..widest {
         radius[k] = radius[widest];
     }

@@ -226,6 +226,14 @@ mod tests {
                 mesh.lattice.push([i, j]);
             }
         }
+        let at = |i: i32, j: i32| start + (j * (n + 1) + i) as u32;
+        let sides: [Vec<u32>; 4] = [
+            (0..n).map(|i| at(i, 0)).collect(),
+            (0..m).map(|j| at(n, j)).collect(),
+            (1..=n).rev().map(|i| at(i, m)).collect(),
+            (1..=m).rev().map(|j| at(0, j)).collect(),
+        ];
+        let outline = sides.concat();
         mesh.panels.push(MeshPanel {
             name: format!("p{}", mesh.panels.len()),
             fabric: 0,
@@ -236,7 +244,7 @@ mod tests {
             particles: Stretch { start, end: mesh.particles.len() as u32 },
             cells: Stretch::default(),
             triangles: Stretch::default(),
-            loops: vec![vec![start]],
+            loops: vec![outline],
             edges: Vec::new(),
             surfaces: Vec::new(),
         });
@@ -309,5 +317,90 @@ mod tests {
         }
         let low = positions[second as usize];
         assert!((low.y - 0.8).abs() < 1e-6, "it hangs on below the first: {low}");
+    }
+
+    /// Sews the right edge of one rectangle to the left edge of another; both have 21 rows.
+    fn sew_sides(mesh: &mut Compiled, from: usize, to: usize) {
+        let (a, b) = (mesh.panels[from].particles, mesh.panels[to].particles);
+        let columns = |p: Stretch| (p.end - p.start) / 21;
+        let pairs = (0..21)
+            .map(|row| [a.start + (row + 1) * columns(a) - 1, b.start + row * columns(b)])
+            .collect();
+        mesh.seams.push(MeshSeam { name: format!("{from} -> {to}"), pairs });
+    }
+
+    #[test]
+    fn gores_sewn_in_a_round_each_take_their_own_part_of_it() {
+        let mut mesh = Compiled::default();
+        for _ in 0..6 {
+            rectangle(&mut mesh, [0.2, 0.4], wrapped(Side::Around, "waist"));
+        }
+        for gore in 0..6 {
+            sew_sides(&mut mesh, gore, (gore + 1) % 6);
+        }
+        let positions = place(&mesh, &[post()]);
+        for (gore, panel) in mesh.panels.iter().enumerate() {
+            let middle: Vector3<f64> =
+                panel.particles.range().map(|k| positions[k].coords).sum::<Vector3<f64>>()
+                    / panel.particles.range().len() as f64;
+            let angle = libm::atan2(middle.x, middle.z) / std::f64::consts::TAU;
+            let off = angle - gore as f64 / 6.0;
+            assert!((off - off.round()).abs() < 0.01, "gore {gore} lies at {angle} of the round");
+        }
+        for seam in &mesh.seams {
+            for [a, b] in &seam.pairs {
+                // Chords of the round are shorter than it; nothing lies on its neighbour.
+                let gap = (positions[*a as usize] - positions[*b as usize]).norm();
+                assert!((1e-3..0.03).contains(&gap), "{}: {gap}", seam.name);
+            }
+        }
+    }
+
+    #[test]
+    fn side_pieces_close_the_round_between_a_front_and_a_back() {
+        let mut mesh = Compiled::default();
+        rectangle(&mut mesh, [0.3, 0.4], wrapped(Side::Before, "waist"));
+        rectangle(&mut mesh, [0.2, 0.4], Placement::Led);
+        rectangle(&mut mesh, [0.3, 0.4], wrapped(Side::Behind, "waist"));
+        sew_sides(&mut mesh, 0, 1);
+        sew_sides(&mut mesh, 1, 2);
+        let positions = place(&mesh, &[post()]);
+        let side = mesh.panels[1].particles.range();
+        let middle: Vector3<f64> = side.clone().map(|k| positions[k].coords).sum();
+        assert!(middle.x > 0.0, "it lies at the wearer's left");
+        for k in side {
+            let p = positions[k];
+            assert!(libm::hypot(p.x, p.z) > 0.12 && (0.6 - 1e-9..=1.0 + 1e-9).contains(&p.y));
+        }
+        for [a, b] in mesh.seams.iter().flat_map(|seam| &seam.pairs) {
+            assert!((positions[*a as usize] - positions[*b as usize]).norm() < 0.02);
+        }
+    }
+
+    #[test]
+    fn a_waistband_that_nobody_places_goes_round_above_its_skirt() {
+        let mut mesh = Compiled::default();
+        rectangle(&mut mesh, [0.36, 0.4], wrapped(Side::Before, "waist"));
+        rectangle(&mut mesh, [0.36, 0.4], wrapped(Side::Behind, "waist"));
+        rectangle(&mut mesh, [0.72, 0.04], Placement::Led);
+        let band = mesh.panels[2].particles.start;
+        // The upper edges of front and back to the lower edge of the band.
+        for (panel, first) in [(0, 0), (1, 18)] {
+            let top = mesh.panels[panel].particles.start + 20 * 19;
+            let pairs = (0..19).map(|i| [top + i, band + first + i]).collect();
+            mesh.seams.push(MeshSeam { name: "band".to_owned(), pairs });
+        }
+        let positions = place(&mesh, &[post()]);
+        for k in mesh.panels[2].particles.range() {
+            let p = positions[k];
+            assert!(libm::hypot(p.x, p.z) > 0.1, "{p} begins in the post");
+            assert!((1.0 - 1e-6..1.05).contains(&p.y), "{p} is not above the skirt");
+        }
+        for seam in &mesh.seams {
+            for [a, b] in &seam.pairs {
+                let gap = positions[*a as usize] - positions[*b as usize];
+                assert!(gap.norm() < 0.06, "the band is turned away from its skirt: {gap}");
+            }
+        }
     }
 }

@@ -16,7 +16,8 @@ const ROUND: usize = 48;
 /// to `low` is none.
 pub(super) fn collar_base(body: &Surface, low: f64) -> Option<f64> {
     let neck = body.landmarks.get("neck").map(|_| super::centre(body, "neck").y)?;
-    let side = body.landmarks.get("neck_side.left").map(|_| super::centre(body, "neck_side.left").y);
+    let side =
+        body.landmarks.get("neck_side.left").map(|_| super::centre(body, "neck_side.left").y);
     (low > neck - COLLAR).then_some(side.unwrap_or(neck))
 }
 

@@ -25,7 +25,7 @@ pub(super) fn roll(
     if family.hung {
         hang(joins, family, done, positions);
     }
-    let Some([mut low, mut high]) = heights(compiled, joins, &family.members) else { return };
+    let Some([mut low, mut high]) = family.heights(compiled, joins) else { return };
     if let Some(base) = section::collar_base(family.root.body, low) {
         // A collar stands on the shoulders.
         let up = (base - low).max(0.0);
@@ -38,14 +38,12 @@ pub(super) fn roll(
     let gap = family.gap;
     turn_beside(joins, family, done, positions, &sections, gap);
     let wanted = girths(compiled, joins, &family.members, low, sections.count());
-    let gaps: Vec<f64> = (0..sections.count())
-        .map(|k| gap.max((wanted[k] - sections.girth(k)) / TAU))
-        .collect();
+    let gaps: Vec<f64> =
+        (0..sections.count()).map(|k| gap.max((wanted[k] - sections.girth(k)) / TAU)).collect();
     let gaps = if family.members.len() == 1 {
         // A band keeps its length from row to row.
-        let longest = (0..sections.count())
-            .map(|k| sections.girth(k) + TAU * gaps[k])
-            .fold(0.0, f64::max);
+        let longest =
+            (0..sections.count()).map(|k| sections.girth(k) + TAU * gaps[k]).fold(0.0, f64::max);
         (0..sections.count()).map(|k| (longest - sections.girth(k)) / TAU).collect()
     } else {
         smooth_from_above(&gaps)
@@ -75,18 +73,6 @@ pub(super) fn roll(
                 Point3::new(a[0] + t * (b[0] - a[0]), height, a[1] + t * (b[1] - a[1]));
         }
     }
-}
-
-/// Least and greatest height of a family's pieces, m.
-fn heights(compiled: &Compiled, joins: &Joins, members: &[Member]) -> Option<[f64; 2]> {
-    let all = members.iter().flat_map(|member| {
-        let particles = compiled.panels[member.panel].particles.range();
-        particles.map(|k| member.lay.at(joins.drawn[k])[1])
-    });
-    all.fold(None, |span: Option<[f64; 2]>, y| {
-        let [low, high] = span.unwrap_or([y; 2]);
-        Some([low.min(y), high.max(y)])
-    })
 }
 
 /// Pairs of a panel with panels that are `done`.
