@@ -387,9 +387,9 @@ impl<'t> Evaluator<'t> {
 
     fn places(&mut self, fields: &Fields<'t>, making: &mut Making) {
         let mut said: BTreeMap<(ItemId, usize), Span> = BTreeMap::new();
+        let bodies = making.bodies.clone();
         for phrase in fields.all("place") {
             self.within = Some((phrase.scope, self.waiting.len()));
-            let bodies = making.bodies.clone();
             let Some(placed) = self.placements(phrase, &|id| bodies.get(&id).copied()) else {
                 // The piece is not told to be placed nowhere on top of this mistake.
                 self.note_place(phrase, making, &mut said);
