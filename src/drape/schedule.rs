@@ -99,7 +99,7 @@ pub fn press(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
             air: 0.0,
             calm: 3.0,
             grip: 0.0,
-            layers: false,
+            layers: std::env::var("PRESS").is_ok(),
             aim: Aim { tolerance: 1e-2, most: 200 },
             ..Manner::default()
         })?;

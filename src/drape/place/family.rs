@@ -3,7 +3,7 @@
 
 use super::joins::{Joins, Seen};
 use super::layplan::{self, Lay};
-use super::{Wrapped, leg};
+use super::{Wrapped, leg, section};
 use crate::garment::scene::{Placement, Side};
 use crate::mesh::compiled::Compiled;
 
@@ -135,8 +135,12 @@ impl<'a> Families<'a> {
             if !turned && !(is(a, Side::Behind) && is(b, Side::Before)) {
                 return false;
             }
+            let body = a.root.body;
             let (a, b) = (a.heights(compiled, joins), b.heights(compiled, joins));
             let (Some(a), Some(b)) = (a, b) else { return false };
+            if section::collar_base(body, a[0].max(b[0])).is_some() {
+                return false;
+            }
             a[1].min(b[1]) - a[0].max(b[0]) > 0.5 * (a[1] - a[0]).min(b[1] - b[0])
         };
         let meet = |a: &Family, b: &Family| {
