@@ -67,7 +67,7 @@ impl Drape {
 const RUNGS: [f64; 3] = [4.0, 2.0, 1.0];
 
 /// Coarsest cell on which a garment is still recognisable, m.
-const COARSEST: f64 = 0.025;
+const COARSEST: f64 = 0.031;
 
 /// Compiles and drapes `garment`, or takes the drape from the cache; writes `--stats`.
 pub(super) fn dress(
@@ -135,6 +135,7 @@ pub(super) fn verdict(draped: &Draped) -> Result<(), Stop> {
         (Some(reason), _) => Err(Stop::Drape(reason.clone())),
         (None, Verdict::FellOff) => Err(Stop::Drape("the garment fell off".to_owned())),
         (None, Verdict::Penetrating) => Err(Stop::Drape("cloth is left inside a body".to_owned())),
+        (None, Verdict::Tangled) => Err(Stop::Drape("the cloth passes through itself".to_owned())),
         (None, Verdict::Settled | Verdict::StillMoving) => Ok(()),
     }
 }

@@ -71,4 +71,7 @@ pub enum Verdict {
     /// Cloth is left inside a body.
     #[serde(rename = "penetrating")]
     Penetrating,
+    /// Cloth passes through cloth.
+    #[serde(rename = "tangled")]
+    Tangled,
 }

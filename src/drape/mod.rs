@@ -264,7 +264,11 @@ pub fn dress(
         }
         let places = shop.positions();
         if let Some(next) = rungs.get(rung + 1) {
-            carried = Some((ladder::carry(compiled, &places, next), sewn, shut));
+            let mut places: Vec<Point3<f64>> =
+                ladder::carry(compiled, &places, next).into_iter().map(Point3::from).collect();
+            // Each carried by itself a patch and its host would cut each other.
+            lay::patches(next, &mut places);
+            carried = Some((places.iter().map(|p| p.coords).collect(), sewn, shut));
         } else {
             result = places;
         }
@@ -285,10 +289,18 @@ pub fn dress(
     if fell && stats.deepest_penetration <= 1e-3 {
         reason.get_or_insert("the garment fell off".to_owned());
     }
+    let cuts = stats.self_intersections;
+    if cuts > 0 && !fell && stats.deepest_penetration <= 1e-3 {
+        reason.get_or_insert(format!(
+            "the cloth passes through itself: {cuts} pairs of faces cut each other"
+        ));
+    }
     stats.verdict = if stats.deepest_penetration > 1e-3 {
         Verdict::Penetrating
     } else if fell {
         Verdict::FellOff
+    } else if cuts > 0 {
+        Verdict::Tangled
     } else if at_rest {
         Verdict::Settled
     } else {

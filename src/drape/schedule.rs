@@ -85,7 +85,7 @@ pub fn sew(
     Ok(course)
 }
 
-/// Presses seams that have just been sewn: without weight and without layers in each other's way the cloth
+/// Presses seams that have just been sewn: without weight and without friction on the skin the cloth
 /// smooths out what closing them has folded over.
 ///
 /// # Errors
@@ -99,7 +99,6 @@ pub fn press(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
             air: 0.0,
             calm: 3.0,
             grip: 0.0,
-            layers: std::env::var("PRESS").is_ok(),
             aim: Aim { tolerance: 1e-2, most: 200 },
             ..Manner::default()
         })?;
