@@ -131,8 +131,8 @@ impl<'a> Families<'a> {
         };
         let is = |f: &Family, side: Side| f.members.iter().all(|m| m.side == side);
         let opposite = |a: &Family, b: &Family| {
-            let turned = is(a, Side::Before) && is(b, Side::Behind);
-            if !turned && !(is(a, Side::Behind) && is(b, Side::Before)) {
+            let turned = |a, b| is(a, Side::Before) && is(b, Side::Behind);
+            if !(turned(a, b) || turned(b, a)) {
                 return false;
             }
             let body = a.root.body;

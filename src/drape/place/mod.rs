@@ -1,8 +1,8 @@
 //! Where panels begin: laid flat in the world, wrapped round trunk or limb at a distance, put on
 //! like trousers, let down as a cone, or led by their seams to a neighbour.
 //!
-//! Pieces that seams join at their sides are first laid side by side in the plane ([`layplan`]),
-//! then rolled round the trunk together ([`trunk`]); what hangs on them by its upper or lower edge,
+//! Pieces that seams join at their sides are first laid side by side in the plane (`layplan`),
+//! then rolled round the trunk together (`trunk`); what hangs on them by its upper or lower edge,
 //! a flounce, a waistband, makes a round of its own at its height, turned towards its partner.
 //!
 //! Wrapped panels keep their widths: every row of the drawing is laid along a closed line round
