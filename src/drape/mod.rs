@@ -175,7 +175,9 @@ pub fn dress(
                     let weld = Weld::new(compiled.particles.len(), seams());
                     shop = Workshop::new(compiled, surfaces, skin, weld, &places);
                     sewn = true;
-                    let pressed = schedule::press(&mut shop);
+                    // Cloth that cuts itself already smooths out better without layers in the way.
+                    let apart = crossing::count(compiled, &places) == 0;
+                    let pressed = schedule::press(&mut shop, apart);
                     let course = course.and_then(|course| {
                         pressed.map(|p| Course { steps: course.steps + p.steps, ..course })
                     });

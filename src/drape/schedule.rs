@@ -86,11 +86,11 @@ pub fn sew(
 }
 
 /// Presses seams that have just been sewn: without weight and without friction on the skin the cloth
-/// smooths out what closing them has folded over.
+/// smooths out what closing them has folded over. With `layers` it is kept apart meanwhile.
 ///
 /// # Errors
 /// [`Stuck`] from the step.
-pub fn press(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
+pub fn press(shop: &mut Workshop<'_>, layers: bool) -> Result<Course, Stuck> {
     let mut course = Course::default();
     while course.steps < PRESSING_STEPS {
         let taken = shop.step(&Manner {
@@ -99,6 +99,7 @@ pub fn press(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
             air: 0.0,
             calm: 3.0,
             grip: 0.0,
+            layers,
             aim: Aim { tolerance: 1e-2, most: 200 },
             ..Manner::default()
         })?;

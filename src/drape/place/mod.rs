@@ -27,6 +27,9 @@ use family::{Families, Family};
 use joins::Joins;
 use nalgebra::{Point3, Rotation3, Vector3};
 
+/// How far above the side of the neck fronts and backs begin, m.
+const ABOVE: f64 = 0.05;
+
 /// First positions of all particles, in the order of the mesh, m.
 ///
 /// `bodies` are the wearers in the order of [`Compiled::bodies`]. A panel whose landmark the body
@@ -133,11 +136,12 @@ impl Wrapped<'_> {
             && Whole::of(compiled, joins, self.number).is_some()
     }
 
-    /// Height of the landmark, m; fronts and backs hang from the side of the neck.
+    /// Height of the landmark, m; fronts and backs come down from above the side of the neck, or
+    /// they would be pushed up against it in a fold.
     fn height(&self) -> f64 {
         let hangs = self.landmark == "neck" && matches!(self.side, Side::Before | Side::Behind);
         match self.body.landmarks.get("neck_side.left").filter(|_| hangs) {
-            Some(Landmark::Point(point)) => point.y,
+            Some(Landmark::Point(point)) => point.y + ABOVE,
             _ => centre(self.body, self.landmark).y,
         }
     }
