@@ -28,7 +28,7 @@ use joins::Joins;
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// How far above the side of the neck fronts and backs begin, m.
-const ABOVE: f64 = 0.05;
+const ABOVE: f64 = 0.065;
 
 /// First positions of all particles, in the order of the mesh, m.
 ///
