@@ -6,39 +6,22 @@
 use darzi::diagnostic::{Diagnostic, FileId};
 use darzi::syntax::format::format;
 use darzi::syntax::parse;
+use meaning::meaning;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::strategy::Union;
-use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The tree without its places.
-fn meaning(text: &str) -> Value {
-    let (tree, told) = parse(FileId(0), text);
-    assert!(!told.iter().any(Diagnostic::is_error), "{told:?} in\n{text}");
-    let mut tree = serde_json::to_value(tree).unwrap();
-    forget_places(&mut tree);
-    tree
-}
-
-fn forget_places(value: &mut Value) {
-    match value {
-        Value::Object(fields)
-            if ["file", "start", "end"].iter().all(|f| fields.contains_key(*f)) =>
-        {
-            *value = Value::Null;
-        }
-        Value::Object(fields) => fields.values_mut().for_each(forget_places),
-        Value::Array(values) => values.iter_mut().for_each(forget_places),
-        _ => {}
-    }
-}
+#[path = "fuzz/meaning.rs"]
+mod meaning;
 
 /// Formats a sound text and checks what must hold of every one.
 fn formatted(text: &str) -> String {
     let new = format(FileId(0), text).unwrap_or_else(|told| panic!("{told:?} in\n{text}"));
-    assert_eq!(meaning(text), meaning(&new), "from\n{text}\nto\n{new}");
+    let meant = meaning(text);
+    assert!(meant.is_some(), "mistakes in\n{text}");
+    assert_eq!(meant, meaning(&new), "from\n{text}\nto\n{new}");
     let again = format(FileId(0), &new).unwrap();
     assert_eq!(new, again, "formatted twice from\n{text}");
     for line in new.lines() {

@@ -5,13 +5,35 @@ use super::weld::Weld;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 type V = Vector3<f64>;
 
-/// Pairs of triangles (cells cut in two) that cut each other. Triangles with a corner in common,
-/// sewn corners included, do not count.
+/// How many pairs of triangles (cells cut in two) cut each other. Triangles with a corner in common,
+/// sewn and buttoned corners included, do not count.
 pub fn count(compiled: &Compiled, x: &[V]) -> usize {
-    let seams = compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
+    pairs(compiled, x).len()
+}
+
+/// Names of the two panels, or twice of the one, of which most faces cut each other.
+pub fn worst<'a>(compiled: &'a Compiled, x: &[V]) -> Option<[&'a str; 2]> {
+    let of = |f: &[u32; 3]| {
+        compiled.panels.iter().position(|p| p.particles.range().contains(&(f[0] as usize)))
+    };
+    let mut counts: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for [f, g] in pairs(compiled, x) {
+        let (Some(a), Some(b)) = (of(&f), of(&g)) else { continue };
+        *counts.entry([a.min(b), a.max(b)]).or_default() += 1;
+    }
+    let most = counts.values().copied().max()?;
+    let (panels, _) = counts.iter().find(|(_, count)| **count == most)?;
+    Some(panels.map(|p| compiled.panels[p].name.as_str()))
+}
+
+/// The pairs of triangles that cut each other.
+fn pairs(compiled: &Compiled, x: &[V]) -> Vec<[[u32; 3]; 2]> {
+    let sewn = compiled.seams.iter().chain(&compiled.closures);
+    let seams = sewn.flat_map(|s| s.pairs.iter().copied());
     let weld = Weld::new(compiled.particles.len(), seams);
     let halves = compiled.cells.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
     let mut faces: Vec<(f64, f64, [u32; 3])> = halves
@@ -27,13 +49,14 @@ pub fn count(compiled: &Compiled, x: &[V]) -> usize {
     // Sweep upwards: each face against those that begin before it ends.
     (0..faces.len())
         .into_par_iter()
-        .map(|i| {
+        .flat_map_iter(|i| {
             let (_, high, f) = faces[i];
             let own = f.map(|k| x[k as usize]);
-            faces[i + 1..]
+            let (weld, after) = (&weld, &faces[i + 1..]);
+            after
                 .iter()
-                .take_while(|g| g.0 <= high)
-                .filter(|(_, _, g)| {
+                .take_while(move |g| g.0 <= high)
+                .filter(move |(_, _, g)| {
                     let other = g.map(|k| x[k as usize]);
                     overlap(&own, &other, 0)
                         && overlap(&own, &other, 2)
@@ -42,9 +65,9 @@ pub fn count(compiled: &Compiled, x: &[V]) -> usize {
                         })
                         && cut(&own, &other)
                 })
-                .count()
+                .map(move |(_, _, g)| [f, *g])
         })
-        .sum()
+        .collect()
 }
 
 fn overlap(a: &[V; 3], b: &[V; 3], axis: usize) -> bool {

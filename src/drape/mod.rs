@@ -293,8 +293,14 @@ pub fn dress(
     }
     let cuts = stats.self_intersections;
     if cuts > 0 && !fell && stats.deepest_penetration <= 1e-3 {
+        let most = match crossing::worst(finest, &result) {
+            Some([a, b]) if a == b => format!("of `{a}`"),
+            Some([a, b]) => format!("of `{a}` and `{b}`"),
+            None => String::new(),
+        };
         reason.get_or_insert(format!(
-            "the cloth passes through itself: {cuts} pairs of faces cut each other"
+            "the cloth passes through itself: {cuts} pairs of faces cut each other, most of them \
+             {most}; a wider `gap` where they are placed or a finer `grid` may help"
         ));
     }
     stats.verdict = if stats.deepest_penetration > 1e-3 {

@@ -7,7 +7,10 @@ use darzi::mesh::{self, limit};
 use darzi::syntax::format::format;
 use darzi::syntax::parse;
 use darzi::world::{Memory, World};
-use serde_json::Value;
+use meaning::meaning;
+
+#[path = "meaning.rs"]
+mod meaning;
 
 /// Particles that a garment is cut into, more or less, so that it takes milliseconds.
 const PARTICLES: f64 = 500.0;
@@ -32,30 +35,6 @@ fn shown(told: &[Diagnostic], texts: &dyn Texts) {
     let report = render::report(told, texts, false, 80);
     assert!(!report.contains("Failed to read"), "{report}");
     assert_eq!(json::lines(told, texts).lines().count(), told.len());
-}
-
-/// The tree of a text without its places; none where it has mistakes in its shape.
-fn meaning(text: &str) -> Option<Value> {
-    let (tree, told) = parse(FileId(0), text);
-    if told.iter().any(Diagnostic::is_error) {
-        return None;
-    }
-    let mut tree = serde_json::to_value(tree).unwrap();
-    forget_places(&mut tree);
-    Some(tree)
-}
-
-fn forget_places(value: &mut Value) {
-    match value {
-        Value::Object(fields)
-            if ["file", "start", "end"].iter().all(|f| fields.contains_key(*f)) =>
-        {
-            *value = Value::Null;
-        }
-        Value::Object(fields) => fields.values_mut().for_each(forget_places),
-        Value::Array(values) => values.iter_mut().for_each(forget_places),
-        _ => {}
-    }
 }
 
 /// A text is read; formatted it means the same, and formatted again it stays.

@@ -119,11 +119,10 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 pub(super) fn let_down(
     compiled: &Compiled,
     joins: &Joins,
-    wrapped: &Wrapped,
+    (wrapped, whole): (&Wrapped, &Whole),
     done: &[bool],
     positions: &mut [Point3<f64>],
 ) {
-    let Some(whole) = Whole::of(compiled, joins, wrapped.number) else { return };
     let seams = || joins.of(wrapped.number).filter(|seen| done[seen.other]);
     let pairs = || seams().flat_map(|seen| seen.pairs().collect::<Vec<_>>());
     // Below what it is sewn to, at its landmark if that is nothing.
@@ -142,7 +141,7 @@ pub(super) fn let_down(
         .collect();
     let turn = mean_turn(turns.into_iter()).unwrap_or(whole.bisector / TAU);
 
-    let slit = sides(compiled, joins, wrapped.number, &whole);
+    let slit = sides(compiled, joins, wrapped.number, whole);
     for particle in compiled.panels[wrapped.number].particles.range() {
         let (part, out) = whole.polar(joins.drawn[particle]);
         let part = slit.get(&particle).map_or(part, |side| 0.5 * side);

@@ -105,9 +105,7 @@ impl<'a> Families<'a> {
         let Family { root, gap, .. } = self.trunk[family];
         let side = partner.side;
         let upright = Lay { turn: layplan::turn(joins, &seen, &partner.lay), ..Lay::default() };
-        if layplan::is_beside(joins, &seen, &upright, &partner.lay)
-            && !root.is_cone(compiled, joins)
-        {
+        if layplan::is_beside(joins, &seen, &upright, &partner.lay) && root.whole.is_none() {
             let lay = layplan::lay_beside(compiled, joins, (panel, &seen), &partner.lay, None);
             self.trunk[family].members.push(Member { panel, lay, side });
         } else {
@@ -144,13 +142,10 @@ impl<'a> Families<'a> {
             a[1].min(b[1]) - a[0].max(b[0]) > 0.5 * (a[1] - a[0]).min(b[1] - b[0])
         };
         let meet = |a: &Family, b: &Family| {
-            let apart = a.hung
-                || b.hung
-                || !std::ptr::eq(a.root.body, b.root.body)
-                || a.root.panel(compiled).layer != b.root.panel(compiled).layer
-                || a.root.is_cone(compiled, joins)
-                || b.root.is_cone(compiled, joins);
-            !apart && (beside(a, b) || opposite(a, b))
+            !a.hung
+                && !b.hung
+                && a.root.may_adjoin(b.root, compiled)
+                && (beside(a, b) || opposite(a, b))
         };
         let mut first = 0;
         while first < self.trunk.len() {
@@ -198,21 +193,10 @@ fn side_by_side<'a>(
         let part = match w.side {
             Side::Before | Side::Around => 0.0,
             Side::Behind => 0.5,
-            Side::Beside => {
-                if right {
-                    0.75
-                } else {
-                    0.25
-                }
-            }
+            Side::Beside if right => 0.75,
+            Side::Beside => 0.25,
         };
         Lay { part, turn: 0.0, origin: [0.0, w.height() - w.anchor] }
-    };
-    let apart = |a: &Wrapped, b: &Wrapped| {
-        !std::ptr::eq(a.body, b.body)
-            || a.panel(compiled).layer != b.panel(compiled).layer
-            || a.is_cone(compiled, joins)
-            || b.is_cone(compiled, joins)
     };
     let mut taken = vec![false; trunk.len()];
     let mut families = Vec::new();
@@ -230,7 +214,8 @@ fn side_by_side<'a>(
             for seen in joins.of(panel).filter(|s| s.count() > 1) {
                 let Some(n) = trunk.iter().position(|w| w.number == seen.other) else { continue };
                 let other = trunk[n];
-                if apart(here, other) || !layplan::is_beside(joins, &seen, &partner, &start(other))
+                if !here.may_adjoin(other, compiled)
+                    || !layplan::is_beside(joins, &seen, &partner, &start(other))
                 {
                     continue;
                 }

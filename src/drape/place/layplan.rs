@@ -3,7 +3,6 @@
 
 use super::joins::{Joins, Seen, reach};
 use crate::mesh::compiled::Compiled;
-use std::f64::consts::PI;
 
 /// Room between two pieces side by side, m.
 pub(super) const MEETING: f64 = 0.01;
@@ -65,7 +64,7 @@ pub(super) fn turn(joins: &Joins, seen: &Seen, partner: &Lay) -> f64 {
         cross += a[0] * b[1] - a[1] * b[0];
     }
     let turn = libm::atan2(cross, dot);
-    if turn.abs() < UPRIGHT || !turn.is_finite() { 0.0 } else { turn.clamp(-PI, PI) }
+    if turn.abs() < UPRIGHT || !turn.is_finite() { 0.0 } else { turn }
 }
 
 /// Lays a panel beside the partner of a join without lying on it: as it was placed at a `height`, or

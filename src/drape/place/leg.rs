@@ -7,7 +7,8 @@
 
 use super::joins::{Joins, reach};
 use super::section::{Ring, Sections};
-use super::{Wrapped, by_layer, centre, drawing};
+use super::{Wrapped, centre, drawing};
+use crate::body::surface::Surface;
 use crate::garment::scene::Side;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Point3;
@@ -52,6 +53,22 @@ pub(super) fn wrap(
     for members in by_layer(compiled, legs) {
         wrap_together(compiled, joins, &members, positions);
     }
+}
+
+/// The panels of each body and each of its layers of cloth, in their order.
+fn by_layer<'w, 'a>(
+    compiled: &Compiled,
+    panels: &[&'w Wrapped<'a>],
+) -> impl Iterator<Item = Vec<&'w Wrapped<'a>>> {
+    let mut groups: Vec<(*const Surface, i32, Vec<&Wrapped>)> = Vec::new();
+    for &panel in panels {
+        let (body, layer) = (std::ptr::from_ref(panel.body), panel.panel(compiled).layer);
+        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
+            Some((_, _, members)) => members.push(panel),
+            None => groups.push((body, layer, vec![panel])),
+        }
+    }
+    groups.into_iter().map(|(_, _, members)| members)
 }
 
 /// Height at which a place of the drawing belongs, m.
@@ -217,7 +234,7 @@ impl<'a> Piece<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::surface::{Landmark, Surface, SurfaceKind};
+    use crate::body::surface::{Landmark, SurfaceKind};
 
     /// A leg of 80 cm from the crotch to the floor, whose ankle is at 8 cm.
     fn body() -> Surface {
@@ -231,7 +248,16 @@ mod tests {
     }
 
     fn leg<'a>(body: &'a Surface, side: Side) -> Wrapped<'a> {
-        Wrapped { number: 0, body, landmark: "leg.left", level: None, side, anchor: 0.0, gap: 0.03 }
+        Wrapped {
+            number: 0,
+            body,
+            landmark: "leg.left",
+            level: None,
+            side,
+            anchor: 0.0,
+            gap: 0.03,
+            whole: None,
+        }
     }
 
     /// Legs that reach the floor begin with their hems over the ankles; the cloth of each fold is as

@@ -35,6 +35,7 @@ const ABOVE: f64 = 0.065;
 /// `bodies` are the wearers in the order of [`Compiled::bodies`]. A panel whose landmark the body
 /// does not have is laid flat before the body, so that the result is always complete.
 pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
+    let joins = Joins::new(compiled);
     let mut positions = vec![Point3::origin(); compiled.particles.len()];
     let mut done = vec![false; compiled.panels.len()];
     let mut wrapped = Vec::new();
@@ -50,7 +51,7 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
             }
             Placement::Wrapped { body, landmark, level, side, anchor, gap } => {
                 let Some(body) = bodies.get(*body) else { continue };
-                wrapped.push(Wrapped {
+                let mut each = Wrapped {
                     number,
                     body,
                     landmark,
@@ -58,12 +59,16 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
                     side: *side,
                     anchor: *anchor,
                     gap: *gap,
-                });
+                    whole: None,
+                };
+                if *side == Side::Around && each.limb().is_none() {
+                    each.whole = Whole::of(compiled, &joins, number);
+                }
+                wrapped.push(each);
             }
             Placement::Led => {}
         }
     }
-    let joins = Joins::new(compiled);
     let legs: Vec<&Wrapped> = wrapped.iter().filter(|w| leg::is_leg(w)).collect();
     leg::wrap(compiled, &joins, &legs, &mut positions);
     for each in &legs {
@@ -73,10 +78,11 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
     let mut waiting = trunk;
     while !waiting.is_empty() {
         let mut family = waiting.remove(next(&joins, &waiting, &done));
-        if family.root.is_cone(compiled, &joins) && !family.hung {
-            cone::let_down(compiled, &joins, family.root, &done, &mut positions);
-        } else {
-            trunk::roll(compiled, &joins, &mut family, &done, &mut positions);
+        match &family.root.whole {
+            Some(whole) if !family.hung => {
+                cone::let_down(compiled, &joins, (family.root, whole), &done, &mut positions);
+            }
+            _ => trunk::roll(compiled, &joins, &mut family, &done, &mut positions),
         }
         for member in &family.members {
             done[member.panel] = true;
@@ -114,6 +120,8 @@ struct Wrapped<'a> {
     side: Side,
     anchor: f64,
     gap: f64,
+    /// The ring that it is most of, if it is laid all round the trunk: a circular skirt, a cloak.
+    whole: Option<Whole>,
 }
 
 impl Wrapped<'_> {
@@ -129,11 +137,12 @@ impl Wrapped<'_> {
         }
     }
 
-    /// A piece laid all round that is cut as a ring or most of one: a circular skirt, a cloak.
-    fn is_cone(&self, compiled: &Compiled, joins: &Joins) -> bool {
-        self.side == Side::Around
-            && self.limb().is_none()
-            && Whole::of(compiled, joins, self.number).is_some()
+    /// Whether two pieces may lie side by side: on one body in one layer, and neither a ring.
+    fn may_adjoin(&self, other: &Wrapped, compiled: &Compiled) -> bool {
+        std::ptr::eq(self.body, other.body)
+            && self.panel(compiled).layer == other.panel(compiled).layer
+            && self.whole.is_none()
+            && other.whole.is_none()
     }
 
     /// Height of the landmark, m; fronts and backs come down from above the side of the neck, or
@@ -145,22 +154,6 @@ impl Wrapped<'_> {
             _ => centre(self.body, self.landmark).y,
         }
     }
-}
-
-/// The panels of each body and each of its layers of cloth, in their order.
-fn by_layer<'w, 'a>(
-    compiled: &Compiled,
-    panels: &[&'w Wrapped<'a>],
-) -> impl Iterator<Item = Vec<&'w Wrapped<'a>>> {
-    let mut groups: Vec<(*const Surface, i32, Vec<&Wrapped>)> = Vec::new();
-    for &panel in panels {
-        let (body, layer) = (std::ptr::from_ref(panel.body), panel.panel(compiled).layer);
-        match groups.iter_mut().find(|(b, l, _)| *b == body && *l == layer) {
-            Some((_, _, members)) => members.push(panel),
-            None => groups.push((body, layer, vec![panel])),
-        }
-    }
-    groups.into_iter().map(|(_, _, members)| members)
 }
 
 /// Middle of a landmark; a body's own middle where it has no such place.
