@@ -22,6 +22,13 @@ pub struct Course {
 /// Most steps to close the seams.
 const SEWING_STEPS: usize = 600;
 
+/// How far along an open seam its cloth may pass through itself, m; then all along it, where it
+/// would not close otherwise.
+const ROOM: [f64; 2] = [0.05, f64::INFINITY];
+
+/// Strength at which a seam that does not come nearer is given more room.
+const STALLED: f64 = 10.0;
+
 /// Most steps to press them, and the speed at which they are flat, m/s.
 const PRESSING_STEPS: usize = 90;
 const PRESSED: f64 = 0.01;
@@ -48,6 +55,7 @@ pub fn sew(
     let first = shop.sewing.gap(&shop.x).0;
     let mut least = f64::INFINITY;
     let mut since = 0;
+    let mut room = 0;
     while course.steps < SEWING_STEPS {
         let (widest, _) = shop.sewing.gap(&shop.x);
         if widest <= gap {
@@ -67,6 +75,9 @@ pub fn sew(
             if since >= 8 {
                 strength = (strength * 1.6).min(200.0);
                 since = 0;
+                if strength > STALLED && room + 1 < ROOM.len() {
+                    (strength, room) = (1.0, room + 1);
+                }
             }
         }
         let taken = shop.step(&Manner {
@@ -76,6 +87,7 @@ pub fn sew(
             calm: 10.0,
             grip: 0.05,
             sewing: strength,
+            room: ROOM[room],
             near: 0.008,
             layers,
             aim: Aim { tolerance: 2e-2, most: 200 },

@@ -36,6 +36,8 @@ pub struct Manner {
     pub grip: f64,
     /// Strength of open seams, as a share of their ordinary pull.
     pub sewing: f64,
+    /// How far along an open seam its cloth may pass through itself, m.
+    pub room: f64,
     /// Farthest movement of a knot near skin in one step, m.
     pub near: f64,
     /// Whether layers of cloth are kept apart.
@@ -53,6 +55,7 @@ impl Default for Manner {
             calm: 0.0,
             grip: 1.0,
             sewing: 0.0,
+            room: 0.0,
             near: 0.01,
             layers: true,
             aim: Aim { tolerance: 1e-2, most: 400 },
@@ -226,8 +229,9 @@ impl<'a> Workshop<'a> {
         let mut touches = Touches::default();
         let mut layers = self.layers.take().filter(|_| manner.layers);
         if manner.layers {
-            let sewn = self.sewing.pairs.iter().map(|s| s.knots);
-            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, sewn, &start));
+            let open = &self.sewing.pairs;
+            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, open, &start));
+            layers.make_room(manner.room);
             layers.look_for_tangles(&start);
             for (knot, pull, block) in layers.untangle(&self.cloth, &start) {
                 base.0[knot as usize] += block;

@@ -10,6 +10,7 @@
 //! other already keep no distance, there being no right side of them to push to, but are drawn
 //! apart by the line in which they cut (see `untangle`).
 
+mod open;
 pub mod touch;
 pub mod tree;
 mod untangle;
@@ -17,7 +18,9 @@ mod untangle;
 use super::cloth::Cloth;
 use super::hold::Pull;
 use super::proximity::Pair;
+use super::sewing::Stitch;
 use nalgebra::Vector3;
+use open::Open;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use touch::{Touch, Touches};
@@ -105,14 +108,14 @@ pub struct Layers {
     /// The fewest there were, and how often they have been looked for since.
     fewest: usize,
     tried: u32,
-    /// Knots of seams still open: their edges must come together.
-    open: Vec<bool>,
+    /// Seams still open: their edges must come together.
+    open: Open,
 }
 
 impl Layers {
-    /// Takes up a cloth, of whose seams the given pairs of knots are still open; the faces are
-    /// looked through for such as cut each other already.
-    pub fn new(cloth: &Cloth, sewn: impl Iterator<Item = [u32; 2]>, x: &[V]) -> Self {
+    /// Takes up a cloth, of whose seams the given stitches are still open; the faces are looked
+    /// through for such as cut each other already.
+    pub fn new(cloth: &Cloth, stitches: &[Stitch], x: &[V]) -> Self {
         let faces = cloth.faces.clone();
         let mut knot_taken = vec![false; cloth.knots()];
         let mut edge_taken: BTreeSet<[u32; 2]> = BTreeSet::new();
@@ -138,13 +141,10 @@ impl Layers {
             apart: (0..cloth.knots() as u32).map(|k| apart(cloth, k)).collect(),
             widest: SLACK * cloth.cell,
             tangled: vec![false; cloth.knots()],
-            open: vec![false; cloth.knots()],
+            open: Open::new(cloth.knots(), stitches),
             fewest: usize::MAX,
             ..Layers::default()
         };
-        for knot in sewn.flatten() {
-            layers.open[knot as usize] = true;
-        }
         layers.find_tangles(x);
         layers
     }
@@ -195,6 +195,11 @@ impl Layers {
         self.list.clear();
     }
 
+    /// Lets cloth of open seams touch as far along each seam as `room`, m.
+    pub fn make_room(&mut self, room: f64) {
+        self.open.room = room;
+    }
+
     /// Whether any faces cut each other when last looked through.
     fn any_tangled(&self) -> bool {
         !self.cuts.is_empty()
@@ -216,8 +221,7 @@ impl Layers {
             return false;
         }
         let (first, second) = knots.split_at(pair.split());
-        let open = |knots: &[u32]| knots.iter().any(|k| self.open[*k as usize]);
-        !(open(first) && open(second))
+        !self.open.meet(first, second)
     }
 
     /// Distance that a pair is to keep, m.

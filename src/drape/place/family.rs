@@ -55,16 +55,20 @@ pub(super) struct Limb<'a> {
 pub(super) struct Families<'a> {
     pub trunk: Vec<Family<'a>>,
     pub limbs: Vec<Limb<'a>>,
+    /// Pieces of trousers, which lie already.
+    legs: Vec<&'a Wrapped<'a>>,
 }
 
 impl<'a> Families<'a> {
     /// Joins the pieces that are placed, and takes in what they lead.
     pub fn new(compiled: &Compiled, joins: &Joins, wrapped: &'a [Wrapped<'a>]) -> Self {
-        let round: Vec<&Wrapped> = wrapped.iter().filter(|w| !leg::is_leg(w)).collect();
+        let (legs, round): (Vec<&Wrapped>, Vec<&Wrapped>) =
+            wrapped.iter().partition(|w| leg::is_leg(compiled, w));
         let limbs = round.iter().filter(|w| w.limb().is_some());
         let mut families = Families {
             trunk: side_by_side(compiled, joins, &round),
             limbs: limbs.map(|root| Limb { root, led: Vec::new() }).collect(),
+            legs,
         };
         families.lead(compiled, joins);
         families.unite(compiled, joins);
@@ -87,7 +91,10 @@ impl<'a> Families<'a> {
 
     /// Takes in one panel where its longest join leads. Gives whether there was any.
     fn take_in(&mut self, compiled: &Compiled, joins: &Joins, panel: usize) -> bool {
-        let known = |other: usize| self.in_trunk(other).is_some() || self.on_limb(other).is_some();
+        let leg = |other: usize| self.legs.iter().copied().find(|w| w.number == other);
+        let known = |other: usize| {
+            self.in_trunk(other).is_some() || self.on_limb(other).is_some() || leg(other).is_some()
+        };
         let mut longest: Option<Seen> = None;
         for seen in joins.of(panel).filter(|s| s.count() > 1 && known(s.other)) {
             if longest.as_ref().is_none_or(|l| l.count() < seen.count()) {
@@ -99,6 +106,16 @@ impl<'a> Families<'a> {
             let lay = layplan::lay_below(compiled, joins, (panel, &seen), &partner);
             self.limbs[limb].led.push((panel, lay));
             return true;
+        }
+        if let Some(root) = leg(seen.other) {
+            // A waistband; what lies beside a leg is led by itself.
+            let lay = Lay { turn: layplan::turn(joins, &seen, &Lay::default()), ..Lay::default() };
+            let beside = layplan::is_beside(joins, &seen, &lay, &Lay::default());
+            if !beside {
+                let members = vec![Member { panel, lay, side: Side::Around }];
+                self.trunk.push(Family { root, members, gap: root.gap, hung: true });
+            }
+            return !beside;
         }
         let Some((family, member)) = self.in_trunk(seen.other) else { return false };
         let partner = &self.trunk[family].members[member];

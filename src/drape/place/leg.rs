@@ -1,9 +1,10 @@
-//! Fronts and backs of trousers: below the fork a tube round each leg, above it one ring round the
-//! trunk, as when they are being pulled up.
+//! Fronts, backs and whole legs of trousers: below the fork a tube round each leg, above it one ring
+//! round the trunk, as when they are being pulled up.
 //!
-//! The middle line of the drawing, the crease, runs down the front or the back of its leg. Above
-//! the fork a piece begins at the body's middle plane with its own inner edge, the rise. Legs that
-//! would reach down to the feet begin pushed up above them, in folds round the outside.
+//! The middle line of the drawing, the crease, runs down the front or the back of its leg; that of
+//! a leg of one piece runs down the outside. Above the fork a piece begins at the body's middle
+//! plane with its own inner edge, the rise. Legs that would reach down to the feet begin pushed up
+//! above them, in folds round the outside.
 
 use super::joins::{Joins, reach};
 use super::section::{Ring, Sections};
@@ -26,21 +27,34 @@ const FOLD: f64 = 0.16;
 const ANKLE: f64 = 0.01;
 /// Over this height above the fork the two tubes become one ring, m.
 const JOINING: f64 = 0.12;
+/// Reaches that differ by less than this are one, m.
+const SAME: f64 = 1e-4;
 
 /// A piece with its rows.
 struct Piece<'a> {
     wrapped: &'a Wrapped<'a>,
     /// +1 for the wearer's left leg.
     sign: f64,
-    /// How far each row reaches from the crease to the outside and to the inside, m.
+    /// How far each row reaches from the middle line of the drawing, m: of a front or a back to the
+    /// outside and to the inside, of a leg of one piece to the front and to the back.
     reach: Vec<Option<[f64; 2]>>,
 }
 
-/// Whether a panel is a front or a back of a leg.
-pub(super) fn is_leg(wrapped: &Wrapped) -> bool {
+/// Whether a panel is a front or a back of a leg, or a leg of one piece that goes on above the
+/// crotch.
+pub(super) fn is_leg(compiled: &Compiled, wrapped: &Wrapped) -> bool {
+    let Some((points, _)) = wrapped.limb() else { return false };
+    let above = || {
+        let places = drawing(compiled, wrapped.panel(compiled));
+        places.map(|(_, [_, y])| height(wrapped, y)).fold(f64::NEG_INFINITY, f64::max)
+            > points[0].y + JOINING
+    };
     wrapped.landmark.starts_with("leg.")
-        && wrapped.limb().is_some()
-        && matches!(wrapped.side, Side::Before | Side::Behind)
+        && match wrapped.side {
+            Side::Before | Side::Behind => true,
+            Side::Around => above(),
+            Side::Beside => false,
+        }
 }
 
 /// Lays the pieces of all legs, one body and one layer of cloth after the other.
@@ -77,10 +91,11 @@ fn height(wrapped: &Wrapped, y: f64) -> f64 {
     centre(wrapped.body, level).y + y - wrapped.anchor
 }
 
-/// How far a place of the drawing lies towards the outside of its leg, m. Seen from outside, the
-/// right of a front is the wearer's left, the right of a back the wearer's right.
+/// How far a place of the drawing lies towards the outside of its leg, m; of a leg of one piece,
+/// towards the front. Seen from outside, the right of a front is the wearer's left, the right of a
+/// back the wearer's right, the right of a left leg its back.
 fn outwards(wrapped: &Wrapped, sign: f64, x: f64) -> f64 {
-    if wrapped.side == Side::Behind { -x * sign } else { x * sign }
+    if wrapped.side == Side::Before { x * sign } else { -x * sign }
 }
 
 fn wrap_together(
@@ -104,10 +119,11 @@ fn wrap_together(
     let rows = ((high - low) / ROW) as usize + 2;
     let pieces: Vec<Piece> =
         members.iter().map(|wrapped| Piece::new(compiled, joins, wrapped, low, rows)).collect();
-    // The fork: where a piece reaches farthest inwards.
+    // The fork: where a piece first reaches farthest inwards.
     let inmost = |piece: &Piece| {
-        let inner = |k: usize| piece.reach[k].map_or(f64::NEG_INFINITY, |r| r[1]);
-        (0..rows).max_by(|a, b| inner(*a).total_cmp(&inner(*b))).unwrap_or(0)
+        let inner = |k: usize| piece.reach[k].map_or(f64::NEG_INFINITY, |r| piece.inner(r));
+        let most = (0..rows).map(inner).fold(f64::NEG_INFINITY, f64::max);
+        (0..rows).find(|k| inner(*k) > most - SAME).unwrap_or(0)
     };
     let fork = pieces.iter().map(inmost).max().unwrap_or(0);
     let course = Course::new(first, low, low + fork as f64 * ROW);
@@ -123,7 +139,8 @@ fn wrap_together(
                 .map(of)
                 .fold(0.0, f64::max)
         };
-        let leg = |sign| side(sign, Side::Before) + side(sign, Side::Behind);
+        let leg =
+            |sign| side(sign, Side::Before) + side(sign, Side::Behind) + side(sign, Side::Around);
         f64::max(leg(1.0), leg(-1.0))
     };
     let rings: Vec<Ring> = (0..rows)
@@ -150,24 +167,19 @@ fn wrap_together(
             (middle, radius)
         };
         let tubes: Vec<(Point3<f64>, f64)> = (0..rows).map(|k| tube(k.min(fork))).collect();
-        let behind = piece.wrapped.side == Side::Behind;
         for (particle, [x, y]) in drawing(compiled, piece.wrapped.panel(compiled)) {
             let at = height(piece.wrapped, y);
             let out = outwards(piece.wrapped, piece.sign, x);
             let row = ((at - low) / ROW).max(0.0);
             let place = |k: usize| {
                 let (middle, radius) = tubes[k];
-                let angle = out / radius;
+                let angle = piece.angle(out, radius);
                 let (sin, cos) = (libm::sin(angle), libm::cos(angle));
                 // The folds lie where the other leg is not.
                 let reach = radius + course.bulge(at) * 0.5 * (1.0 + sin);
-                let front = if behind { -reach } else { reach };
-                let leg = [middle.x + piece.sign * reach * sin, middle.z + front * cos];
+                let leg = [middle.x + piece.sign * reach * sin, middle.z + reach * cos];
                 let ring = &rings[k];
-                let inner = piece.reach[k].map_or(0.0, |r| r[1]) + 0.5 * MEETING;
-                let walk = (out + inner) * piece.sign;
-                let start = if behind { 0.5 * ring.girth() } else { 0.0 };
-                let trunk = ring.point(if behind { start - walk } else { walk });
+                let trunk = ring.point(piece.sign * piece.walk(out, k, ring.girth()));
                 let share = ((k as f64 - fork as f64) * ROW / JOINING).clamp(0.0, 1.0);
                 let share = share * share * (3.0 - 2.0 * share);
                 [0, 1].map(|c| leg[c] + share * (trunk[c] - leg[c]))
@@ -228,6 +240,35 @@ impl<'a> Piece<'a> {
         let reach = reach(compiled, joins, wrapped.number, &at, (low, ROW, rows));
         let reach = reach.into_iter().map(|row| row.map(|[least, most]| [most, -least])).collect();
         Piece { wrapped, sign, reach }
+    }
+
+    /// How far a row reaches to the inside of its leg, m.
+    fn inner(&self, [out, inner]: [f64; 2]) -> f64 {
+        if self.wrapped.side == Side::Around { out + inner } else { inner }
+    }
+
+    /// Where round a leg a place lies, from the front over the outside, rad.
+    fn angle(&self, out: f64, radius: f64) -> f64 {
+        match self.wrapped.side {
+            Side::Behind => 0.5 * TAU - out / radius,
+            Side::Around => 0.25 * TAU - out / radius,
+            Side::Before | Side::Beside => out / radius,
+        }
+    }
+
+    /// How far round the trunk a place of row `k` lies, from the middle of the front over the
+    /// outside of its leg, m.
+    fn walk(&self, out: f64, k: usize, girth: f64) -> f64 {
+        let reach = self.reach[k].unwrap_or_default();
+        match self.wrapped.side {
+            Side::Behind => 0.5 * girth - (out + reach[1] + 0.5 * MEETING),
+            // It spans from middle to middle.
+            Side::Around => {
+                let whole = reach[0] + reach[1] + MEETING;
+                (reach[0] - out + 0.5 * MEETING) * (0.5 * girth / whole)
+            }
+            Side::Before | Side::Beside => out + reach[1] + 0.5 * MEETING,
+        }
     }
 }
 

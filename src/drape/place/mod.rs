@@ -69,12 +69,12 @@ pub fn place(compiled: &Compiled, bodies: &[Surface]) -> Vec<Point3<f64>> {
             Placement::Led => {}
         }
     }
-    let legs: Vec<&Wrapped> = wrapped.iter().filter(|w| leg::is_leg(w)).collect();
+    let legs: Vec<&Wrapped> = wrapped.iter().filter(|w| leg::is_leg(compiled, w)).collect();
     leg::wrap(compiled, &joins, &legs, &mut positions);
     for each in &legs {
         done[each.number] = true;
     }
-    let Families { trunk, limbs } = Families::new(compiled, &joins, &wrapped);
+    let Families { trunk, limbs, .. } = Families::new(compiled, &joins, &wrapped);
     let mut waiting = trunk;
     while !waiting.is_empty() {
         let mut family = waiting.remove(next(&joins, &waiting, &done));
