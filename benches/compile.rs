@@ -27,6 +27,7 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         edges: Vec::new(),
         allowance: 0.01,
         creases: Vec::new(),
+        marks: Vec::new(),
         notches: Vec::new(),
         bands: Vec::new(),
         surface: Surface::Fabric,

@@ -69,6 +69,8 @@ pub const CODES: &[Code] = &[
     code("E0409", "a fold that is not straight"),
     code("E0410", "a hole outside the cloth"),
     code("E0411", "a pleat that does not fit"),
+    code("E0412", "a line that does not lie on the cloth"),
+    code("E0413", "a cut that does not part the cloth as it is said"),
     code("E0501", "lengths of a seam that do not agree"),
     code("E0502", "a twisted seam"),
     code("E0503", "an edge sewn twice"),

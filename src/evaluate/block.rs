@@ -47,7 +47,7 @@ fn replaces(statement: &Statement) -> Option<&str> {
         | StatementKind::Function { name, .. } => Some(&name.text),
         StatementKind::Property { key, .. } => Some(&key.text),
         StatementKind::Line { word, phrase, .. } => match word.text.as_str() {
-            "fit" => match phrase.first() {
+            "fit" | "mark" => match phrase.first() {
                 Some(Item::Expr(expr)) => bare(expr).map(|name| name.text.as_str()),
                 _ => None,
             },
@@ -72,7 +72,11 @@ fn named(statement: &Statement) -> Option<&Name> {
         | StatementKind::Param { name, .. }
         | StatementKind::Function { name, .. } => Some(name),
         StatementKind::Property { key, .. } => Some(key),
-        StatementKind::Line { word, phrase, .. } if word.text == "fit" => labelled(phrase),
+        StatementKind::Line { word, phrase, .. }
+            if matches!(word.text.as_str(), "fit" | "mark") =>
+        {
+            labelled(phrase)
+        }
         _ => None,
     }
 }

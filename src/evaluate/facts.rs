@@ -485,6 +485,7 @@ impl<'t> Evaluator<'t> {
                 let mut members: Vec<Member> = draft
                     .edge_names()
                     .into_iter()
+                    .chain(draft.mark_names())
                     .map(|name| {
                         let edge = facts
                             .edges

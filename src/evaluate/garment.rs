@@ -321,10 +321,7 @@ impl<'t> Evaluator<'t> {
                 .edges
                 .iter()
                 .map(|edge| NamedEdge {
-                    name: match &edge.half {
-                        Some(half) => format!("{half}.{}", edge.name),
-                        None => edge.name.clone(),
-                    },
+                    name: edge.full_name(),
                     span: edge.span,
                     allowance: allowance(&edge.name).0,
                     corner: allowance(&edge.name).1,
@@ -343,6 +340,7 @@ impl<'t> Evaluator<'t> {
                 edges,
                 allowance: allowance("").0,
                 creases: piece.creases.clone(),
+                marks: piece.drawn_marks(),
                 notches: piece.notches.clone(),
                 bands: bands.iter().flat_map(|(band, fabric)| piece.bands(band, *fabric)).collect(),
                 surface: Surface::Fabric,

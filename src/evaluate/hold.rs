@@ -96,6 +96,9 @@ impl<'t> Evaluator<'t> {
                 return None;
             }
         };
+        if !self.all_on_rim(&edges, arg) {
+            return None;
+        }
         let mut runs = Vec::new();
         for edge in &edges {
             for found in edge.find() {

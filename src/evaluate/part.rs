@@ -179,7 +179,7 @@ impl<'t> Evaluator<'t> {
         for panel in self.panels_of(part) {
             // A panel that cannot be drawn has told why; the edge may be one of its.
             let Some(draft) = self.panel(panel, name.span) else { return Value::Poison };
-            let found = if draft.edge_names().contains(&name.text.as_str()) {
+            let found = if draft.has_line(&name.text) {
                 let (draft, edge) = (draft.clone(), name.text.clone());
                 self.note_edge(name, draft.declared(&edge));
                 let which = Which::default();
@@ -190,7 +190,8 @@ impl<'t> Evaluator<'t> {
                 None
             };
             edges.extend(found.map(|value| (panel, value)));
-            known.extend(draft.edge_names().into_iter().map(str::to_owned));
+            let lines = draft.edge_names().into_iter().chain(draft.mark_names());
+            known.extend(lines.map(str::to_owned));
         }
         let title = self.item(part).name.clone();
         if let [(_, value)] = edges.as_slice() {

@@ -15,7 +15,8 @@ use crate::garment::seam::{PanelRun, Patch};
 use crate::geometry::curve;
 use crate::geometry::polygon::{Place, contains, distance_to_side, sides};
 use crate::units::{self, Dimension};
-use kurbo::{Affine, Point};
+use kurbo::{Affine, Point, Vec2};
+use std::f64::consts::PI;
 use std::rc::Rc;
 
 /// Its edge may lie so far outside of the cloth below, m.
@@ -115,15 +116,20 @@ impl<'t> Evaluator<'t> {
         // All values are looked at, so that one run tells of all.
         let top = phrase.arg(0).and_then(|arg| self.patched(arg));
         let host = phrase.value("on").and_then(|arg| self.patched(arg));
-        let at = phrase.value("at").and_then(|arg| self.point(arg));
+        let at = phrase.value("at").map(|arg| self.point(arg));
         let turn = match phrase.value("turn") {
             Some(arg) => self.quantity(arg, Dimension::ANGLE),
             None => Some(0.0),
         };
         let ((top, top_which), (host, host_which)) = (top?, host?);
         let open = self.open_edges(phrase, &top)?;
-        let ([x, y], turn) = (at?, turn?);
-        let laid = Affine::translate((x, y)) * curve::turning(turn);
+        let laid = match at {
+            Some(at) => {
+                let ([x, y], turn) = (at?, turn?);
+                Affine::translate((x, y)) * curve::turning(turn)
+            }
+            None => self.laid_along(phrase, &top, &open, &host)?,
+        };
         let tops = grounds(&top, &top_which, false);
         let below = grounds(&host, &host_which, tops.len() > 1);
         let spans = (phrase.arg(0)?.expr.span, phrase.value("on")?.expr.span);
@@ -250,6 +256,61 @@ impl<'t> Evaluator<'t> {
         }
     }
 
+    /// `along MARK`: the first open edge of the patch lies along a line of the host, middle on middle,
+    /// and the patch hangs from it as it is drawn; of a patch that is sewn all round its uppermost
+    /// edge.
+    fn laid_along(
+        &mut self,
+        phrase: &Phrase<'t>,
+        top: &Rc<Draft>,
+        open: &[EdgeRef],
+        host: &Rc<Draft>,
+    ) -> Option<Affine> {
+        if let Some(turn) = phrase.clause("turn") {
+            self.tell(
+                Diagnostic::new("E0207", "a patch along a line is turned as the line is")
+                    .at(turn.span, "this has no place here"),
+            );
+            return None;
+        }
+        let along = phrase.value("along")?;
+        let line = match bare(along.expr).filter(|name| host.has_line(&name.text)) {
+            Some(name) => {
+                self.note_edge(name, host.declared(&name.text));
+                whole(host, &name.text)
+            }
+            None => match self.eval(along.expr, along.scope) {
+                Value::Poison => return None,
+                Value::Edges(edges) => match <[EdgeRef; 1]>::try_from(edges) {
+                    Ok([line]) if line.draft.item == host.item => line,
+                    _ => {
+                        let wanted = format!("`along` wants one line of `{}`", host.name);
+                        self.tell(
+                            Diagnostic::new("E0304", wanted)
+                                .at(along.expr.span, "here")
+                                .help("draw one in the panel: `mark pocket from P { line to Q }`"),
+                        );
+                        return None;
+                    }
+                },
+                other => {
+                    self.wrong(&other, "a mark", along.expr.span);
+                    return None;
+                }
+            },
+        };
+        let edges = top.edge_names().into_iter();
+        let own = edges.filter_map(|edge| middle_and_way(&whole(top, edge)));
+        let uppermost = || own.reduce(|a, b| if b.0.y > a.0.y + 1e-9 { b } else { a });
+        let (from, own_way) = open.first().and_then(middle_and_way).or_else(uppermost)?;
+        let (to, way) = middle_and_way(&line)?;
+        let turn = curve::direction(way) - curve::direction(own_way);
+        // Whichever way both were drawn, the patch is turned by a right angle at most.
+        let turn = turn - PI * (turn / PI).round();
+        let there = Affine::translate(to.to_vec2());
+        Some(there * curve::turning(turn) * Affine::translate(-from.to_vec2()))
+    }
+
     /// The edges behind `open`: names of the patch's own, or any that are worked out.
     fn open_edges(&mut self, phrase: &Phrase<'t>, top: &Rc<Draft>) -> Option<Vec<EdgeRef>> {
         let mut open = Vec::new();
@@ -261,12 +322,7 @@ impl<'t> Evaluator<'t> {
                     return None;
                 }
                 self.note_edge(name, top.declared(&name.text));
-                open.push(EdgeRef {
-                    draft: top.clone(),
-                    which: Which::default(),
-                    edge: name.text.clone(),
-                    part: None,
-                });
+                open.push(whole(top, &name.text));
                 continue;
             }
             match self.eval(arg.expr, arg.scope) {
@@ -312,6 +368,28 @@ impl<'t> Evaluator<'t> {
         );
         None
     }
+}
+
+/// All of an edge or a mark.
+fn whole(draft: &Rc<Draft>, edge: &str) -> EdgeRef {
+    EdgeRef { draft: draft.clone(), which: Which::default(), edge: edge.to_owned(), part: None }
+}
+
+/// The middle of an edge or a mark on the piece as drawn, and the way from its start to its end.
+fn middle_and_way(edge: &EdgeRef) -> Option<(Point, Vec2)> {
+    let found = edge.find().into_iter().find(|found| found.piece == 0)?;
+    let runs = edge.runs(&found);
+    let piece = edge.draft.pieces.first()?;
+    let (start, end) = piece.ends(&runs)?;
+    let mut rest = runs.iter().map(Run::length).sum::<f64>() / 2.0;
+    for run in &runs {
+        if rest <= run.length() {
+            let sense = if run.to < run.from { -1.0 } else { 1.0 };
+            return Some((piece.point(run, run.from + sense * rest), end - start));
+        }
+        rest -= run.length();
+    }
+    None
 }
 
 /// The runs of a piece's outline that are sewn: all but the open ones and those sewn to itself.

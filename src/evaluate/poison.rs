@@ -28,7 +28,8 @@ impl<'t> Evaluator<'t> {
         out: &mut Fields<'t>,
     ) {
         out.spoiled.push(Spoiled { word, label });
-        let names = word.is_some_and(|word| declares(word.form) || word.name == "fit");
+        let names =
+            word.is_some_and(|word| declares(word.form) || matches!(word.name, "fit" | "mark"));
         if let (true, Some(Item::Expr(first))) = (names, phrase.first()) {
             self.poison_name(root(first), out.scope);
         }

@@ -367,6 +367,7 @@ fn panel(
             .collect(),
         allowance: 0.0,
         creases: piece.creases.clone(),
+        marks: piece.drawn_marks(),
         notches: piece.notches.clone(),
         bands: Vec::new(),
         surface,

@@ -158,6 +158,9 @@ impl<'t> Evaluator<'t> {
                 return None;
             }
         };
+        if !self.all_on_rim(&edges, arg) {
+            return None;
+        }
         let mut elements = Vec::new();
         for edge in edges {
             let mut alternatives = Vec::new();

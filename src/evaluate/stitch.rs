@@ -167,6 +167,9 @@ impl<'t> Evaluator<'t> {
         let mut rims = Vec::new();
         let number = |id: ItemId, piece: usize| making.numbers.get(&(id, piece)).copied();
         if let Value::Edges(edges) = self.eval(arg.expr, arg.scope) {
+            if !self.all_on_rim(&edges, arg) {
+                return None;
+            }
             for edge in &edges {
                 if edge.part.is_some() {
                     self.tell(

@@ -31,6 +31,8 @@ pub struct Panel {
     pub allowance: f64,
     /// Lines along which it is folded.
     pub creases: Vec<Crease>,
+    /// Lines drawn on it.
+    pub marks: Vec<Mark>,
     /// Match marks on the outline, for the cutter.
     pub notches: Vec<Notch>,
     /// Further cloth along its edges.
@@ -72,6 +74,17 @@ pub struct NamedEdge {
     /// The pieces it runs along. Where a dart is cut out of it, the runs do not touch on the
     /// flat; sewn they do.
     pub runs: Vec<Run>,
+}
+
+/// A line drawn on a piece, for the cutter and for what is sewn on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Its name; that of a copy carries its half, as an edge does.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// The line, in the direction in which it was drawn.
+    pub path: BezPath,
 }
 
 /// How seam allowances meet in a corner.

@@ -45,9 +45,11 @@ pub fn given<'t>(outline: &Outline, text: &'t str, number: usize) -> Option<Give
                 let edge = kind == Some(Kind::Outline) || word.name == "hole";
                 at(key, if edge { Sort::Edge } else { Sort::Label })
             }
-            (Form::Action, None) => {
-                (word.name == "fit").then(|| at(head + 1, Sort::Value)).flatten()
-            }
+            (Form::Action, None) => match word.name {
+                "fit" => at(head + 1, Sort::Value),
+                "mark" => at(head + 1, Sort::Edge),
+                _ => None,
+            },
         };
     }
     match outline.slice(text, head) {

@@ -97,6 +97,7 @@ pub fn outline(name: &str, pieces: Vec<BezPath>, names: &[&str], placement: Plac
         edges,
         allowance: 0.01,
         creases: Vec::new(),
+        marks: Vec::new(),
         notches: Vec::new(),
         bands: Vec::new(),
         surface: Surface::Fabric,

@@ -6,6 +6,7 @@ mod blocks;
 mod errors;
 mod garments;
 mod library;
+mod marks;
 mod operations;
 mod parts;
 mod patches;

@@ -68,6 +68,16 @@ fn piece(out: &mut String, panel: &Panel, place: Affine) {
         let ends = [crease.from, crease.to].map(|[x, y]| place * Point::new(x, y));
         line(out, ends, " stroke-dasharray=\"6 4\"");
     }
+    for mark in &panel.marks {
+        let path = outline(&(place * mark.path.clone()));
+        writeln!(
+            out,
+            "<path d=\"{path}\" fill=\"none\" stroke=\"#a8321e\" stroke-dasharray=\"2 3\"/>"
+        )
+        .unwrap();
+        let (at, _) = curve::at(&mark.path, curve::length(&mark.path) / 2.0);
+        text(out, place * at + Vec2::new(8.0, 4.0), "start", "#a8321e", &mark.name);
+    }
     for notch in &panel.notches {
         let at = Point::new(notch.at[0], notch.at[1]);
         let inward = Vec2::new(notch.inward[0], -notch.inward[1]) * 8.0;

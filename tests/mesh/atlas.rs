@@ -102,6 +102,7 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
             edges: vec![],
             allowance: 0.01,
             creases: vec![],
+            marks: vec![],
             notches: vec![],
             bands: vec![],
             surface,

@@ -82,6 +82,7 @@ pub fn panel(name: &str, loops: Vec<Loop>, cell: f64) -> Panel {
         loops,
         allowance: 0.01,
         creases: Vec::new(),
+        marks: Vec::new(),
         notches: Vec::new(),
         bands: Vec::new(),
         surface: Surface::Fabric,

@@ -4,6 +4,7 @@ use super::super::Evaluator;
 use super::super::fields::{Fields, Phrase};
 use super::super::item::ItemId;
 use super::super::words::Kind;
+use super::slit;
 use crate::diagnostic::Span;
 use crate::units::Dimension;
 
@@ -44,6 +45,12 @@ impl<'t> Evaluator<'t> {
                 edges.push(self.name_of(arg)?.text.clone());
             }
             bands.push(Banded { span: phrase.span, edges, width, plies: plies(phrase), fabric });
+        }
+        for phrase in fields.all("slit") {
+            let Some(width) = phrase.value("facing") else { continue };
+            let width = self.within_range(width, Dimension::LENGTH, WIDTH.0, WIDTH.1)?;
+            let edges = slit::lips(phrase).into_iter().flatten().collect();
+            bands.push(Banded { span: phrase.span, edges, width, plies: 1, fabric: None });
         }
         Some(bands)
     }

@@ -48,7 +48,7 @@ pub struct Mark {
 pub struct Found {
     /// Number of the piece.
     pub piece: usize,
-    /// Number of the edge on the piece.
+    /// Number of the edge on the piece, its marks counted on behind its edges.
     pub edge: usize,
     /// Names of the half and the copy that were not said.
     pub tag: Vec<String>,
@@ -60,7 +60,7 @@ impl EdgeRef {
         let Which(names) = &self.which;
         let mut found = Vec::new();
         for (number, piece) in self.draft.pieces.iter().enumerate() {
-            for (place, edge) in piece.edges.iter().enumerate() {
+            for (place, edge) in piece.edges.iter().chain(&piece.marks).enumerate() {
                 if edge.name != self.edge {
                     continue;
                 }
@@ -72,7 +72,7 @@ impl EdgeRef {
                 let excluded = (piece.side.as_ref().is_some_and(|side| !said(side))
                     && self.draft.pieces.iter().any(|p| p.side.as_ref().is_some_and(said)))
                     || (edge.half.as_ref().is_some_and(|half| !said(half))
-                        && piece.edges.iter().any(|e| e.half.as_ref().is_some_and(said)));
+                        && piece.halves().any(said));
                 if !excluded {
                     found.push(Found { piece: number, edge: place, tag: open });
                 }
@@ -111,7 +111,12 @@ impl EdgeRef {
     }
 
     fn cut_edge(&self, found: &Found) -> Option<&CutEdge> {
-        self.draft.pieces.get(found.piece)?.edges.get(found.edge)
+        self.draft.pieces.get(found.piece)?.line(found.edge)
+    }
+
+    /// Whether it is a line inside the piece and no edge of it.
+    pub fn is_mark(&self) -> bool {
+        self.draft.mark_names().contains(&self.edge.as_str())
     }
 
     /// Its length as sewn, m; of the first of several halves.
@@ -150,7 +155,7 @@ impl EdgeRef {
     pub fn written(&self, found: &Found) -> String {
         let mut text = self.draft.name.clone();
         if let Some(piece) = self.draft.pieces.get(found.piece) {
-            let half = piece.edges.get(found.edge).and_then(|edge| edge.half.as_ref());
+            let half = piece.line(found.edge).and_then(|edge| edge.half.as_ref());
             for name in piece.side.iter().chain(half) {
                 text.push('.');
                 text.push_str(name);
@@ -191,7 +196,7 @@ impl<'t> Evaluator<'t> {
             chosen.0.push(name.text.clone());
             return Value::Half(id, chosen);
         }
-        if draft.edge_names().contains(&name.text.as_str()) {
+        if draft.has_line(&name.text) {
             let edge = name.text.clone();
             self.note_edge(name, draft.declared(&edge));
             return Value::Edges(vec![EdgeRef { draft, which: chosen, edge, part: None }]);
@@ -214,6 +219,7 @@ impl<'t> Evaluator<'t> {
         }
         let title = format!("`{}`", draft.name);
         let mut known = draft.edge_names();
+        known.extend(draft.mark_names());
         known.extend(draft.parts());
         let label = self.meant(&name.text, known.iter().copied());
         self.tell(
@@ -418,6 +424,26 @@ impl<'t> Evaluator<'t> {
         let offset = edge.part.map_or(0.0, |(from, _)| from);
         let part = Some((a + offset, b + offset));
         Value::Edges(vec![EdgeRef { part, ..edge.clone() }])
+    }
+
+    /// Whether all of these run along the rim of their pieces; a mark that does not is told.
+    pub(in super::super) fn all_on_rim(&mut self, edges: &[EdgeRef], arg: Arg<'t>) -> bool {
+        let Some(mark) = edges.iter().find(|edge| edge.is_mark()) else { return true };
+        let declared = mark.draft.declared(&mark.edge);
+        let mut told = Diagnostic::new(
+            "E0304",
+            format!("`{}` is a line on `{}`; `{}` wants edges", mark.edge, mark.draft.name, arg.of),
+        )
+        .at(arg.expr.span, "here")
+        .help(format!(
+            "what is sewn on the face of a piece is a `patch`; `slit along {}` and `trim along {}` make edges of it",
+            mark.edge, mark.edge
+        ));
+        for span in declared.into_iter().take(1) {
+            told = told.at(span, "drawn here");
+        }
+        self.tell(told);
+        false
     }
 
     /// Whether the start (true) or the end of an edge touches the edge of that name on its panel.

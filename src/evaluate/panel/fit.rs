@@ -175,7 +175,7 @@ impl<'t> Evaluator<'t> {
             instance.draft = State::Done(None);
             instance.fields.phrases.clear();
             instance.outline = None;
-            instance.holes.clear();
+            instance.drawn.clear();
         }
         let (a, b) = (a?, b?);
         if self.exhausted {

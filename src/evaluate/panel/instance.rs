@@ -9,8 +9,8 @@ use super::super::value::Value;
 use super::super::words::{Kind, vocabulary};
 use super::edge::{EdgeRef, Which};
 use super::operation::SHAPES;
-use super::particle;
 use super::{Draft, Instance, InstanceId};
+use super::{mark, particle, slit};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::tree::{Expr, ExprKind, Name, Statement, StatementKind};
 use crate::units::Quantity;
@@ -86,12 +86,12 @@ impl<'t> Evaluator<'t> {
             item: id,
             fields: empty,
             outline: None,
-            holes: Vec::new(),
+            drawn: Vec::new(),
             draft: State::Pending,
         });
         let fields = self.read_block(Kind::Panel, span, title, merged, scope);
         let mut outline = None;
-        let mut holes = Vec::new();
+        let mut drawn = Vec::new();
         let mut shaped = false;
         for (number, phrase) in fields.phrases.iter().enumerate() {
             // Of two shapes, which are told of, the first names the edges.
@@ -105,7 +105,7 @@ impl<'t> Evaluator<'t> {
                 }
                 "hole" if phrase.block.is_some() => {
                     if let Some(read) = self.read_outline(phrase, &[], scope, instance) {
-                        holes.push((number, read));
+                        drawn.push((number, read));
                     }
                 }
                 "hole" => {
@@ -118,6 +118,19 @@ impl<'t> Evaluator<'t> {
                         for name in names {
                             self.declare(scope, &name, label.span, scope, What::Edge(instance));
                         }
+                    }
+                }
+                "mark" => {
+                    if let Some(name) = mark::name(phrase) {
+                        self.declare(scope, &name.text, name.span, scope, What::Edge(instance));
+                    }
+                    if let Some(read) = self.read_outline(phrase, &[], scope, instance) {
+                        drawn.push((number, read));
+                    }
+                }
+                "slit" => {
+                    for name in slit::lips(phrase).into_iter().flatten() {
+                        self.declare(scope, &name, phrase.span, scope, What::Edge(instance));
                     }
                 }
                 "mask" => {
@@ -148,7 +161,7 @@ impl<'t> Evaluator<'t> {
         if let Some(place) = self.instances.get_mut(instance.0) {
             place.fields = fields;
             place.outline = outline;
-            place.holes = holes;
+            place.drawn = drawn;
         }
         instance
     }
@@ -260,14 +273,12 @@ impl<'t> Evaluator<'t> {
         };
         let from = self.waiting.last().map_or(span, |(_, from)| *from);
         match self.instance_draft(instance, from) {
-            Some(draft) if draft.edge_names().contains(&name.as_str()) => {
-                Value::Edges(vec![EdgeRef {
-                    draft,
-                    which: Which::default(),
-                    edge: name,
-                    part: None,
-                }])
-            }
+            Some(draft) if draft.has_line(&name) => Value::Edges(vec![EdgeRef {
+                draft,
+                which: Which::default(),
+                edge: name,
+                part: None,
+            }]),
             Some(draft) => {
                 self.tell(
                     Diagnostic::new(

@@ -7,6 +7,7 @@ mod dart;
 pub mod edge;
 mod fit;
 mod instance;
+mod mark;
 mod mouth;
 pub(super) mod operation;
 mod outline;
@@ -15,6 +16,7 @@ mod pleat;
 mod raster;
 pub(super) mod shape;
 pub(super) mod sheet;
+mod slit;
 mod transform;
 
 use super::Evaluator;
@@ -22,7 +24,7 @@ use super::fields::Fields;
 use super::item::{ItemId, State};
 use super::scope::ScopeId;
 use crate::diagnostic::Span;
-use crate::garment::panel::{Band, Corner, Crease, Loop, Notch, Run};
+use crate::garment::panel::{Band, Corner, Crease, Loop, Mark, Notch, Piece, Run};
 use crate::garment::seam::SeamKind;
 pub use band::Banded;
 use kurbo::{BezPath, Point};
@@ -38,9 +40,9 @@ pub struct InstanceId(pub(super) usize);
 pub(super) struct Instance<'t> {
     pub item: ItemId,
     pub fields: Fields<'t>,
-    /// The block of its outline, and those of its holes by the number of their phrase.
+    /// The block of its outline, and those of its holes and marks by the number of their phrase.
     pub outline: Option<Fields<'t>>,
-    pub holes: Vec<(usize, Fields<'t>)>,
+    pub drawn: Vec<(usize, Fields<'t>)>,
     pub draft: State<Option<Rc<Draft>>>,
 }
 
@@ -126,6 +128,10 @@ pub struct CutPiece {
     pub loops: Vec<Loop>,
     /// Named edges.
     pub edges: Vec<CutEdge>,
+    /// Named lines inside, of which the runs go along `lines`: their loop is the one behind the last.
+    pub marks: Vec<CutEdge>,
+    /// What the marks run along.
+    pub lines: Vec<Piece>,
     /// What of it is sewn to itself: darts, pleats.
     pub joins: Vec<CutJoin>,
     /// Lines along which it is folded.
@@ -162,6 +168,13 @@ pub struct CutJoin {
     pub sides: [Vec<Run>; 2],
 }
 
+impl CutEdge {
+    /// Its name with its half: `left.side`.
+    pub fn full_name(&self) -> String {
+        self.half.as_ref().map_or_else(|| self.name.clone(), |half| format!("{half}.{}", self.name))
+    }
+}
+
 impl CutPiece {
     /// A band along each edge of its names.
     pub(super) fn bands<'p>(
@@ -179,9 +192,30 @@ impl CutPiece {
         })
     }
 
+    /// An edge by its number, or a mark: these are counted on behind the edges.
+    pub fn line(&self, number: usize) -> Option<&CutEdge> {
+        let marks = number.checked_sub(self.edges.len());
+        marks.map_or_else(|| self.edges.get(number), |mark| self.marks.get(mark))
+    }
+
+    /// The marks as lines for the cutter.
+    pub(super) fn drawn_marks(&self) -> Vec<Mark> {
+        let path = |mark: &CutEdge| {
+            let (run, _) = mark.runs.first()?;
+            Some(Mark { name: mark.full_name(), span: mark.span, path: self.path(run)?.clone() })
+        };
+        self.marks.iter().filter_map(path).collect()
+    }
+
+    /// The halves of its edges and marks.
+    pub(super) fn halves(&self) -> impl Iterator<Item = &String> {
+        self.edges.iter().chain(&self.marks).filter_map(|edge| edge.half.as_ref())
+    }
+
     /// The path of a run's piece.
     pub fn path(&self, run: &Run) -> Option<&BezPath> {
-        self.loops.get(run.ring)?.pieces.get(run.piece).map(|piece| &piece.path)
+        let pieces = self.loops.get(run.ring).map_or(&self.lines, |ring| &ring.pieces);
+        pieces.get(run.piece).map(|piece| &piece.path)
     }
 
     /// The point at an arc length of a piece.
@@ -216,10 +250,27 @@ impl Draft {
         names
     }
 
-    /// Where the edges of that name are declared.
+    /// Names of the lines marked on it, each once, in the order of the text.
+    pub fn mark_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for mark in self.pieces.first().map_or(&[][..], |piece| &piece.marks) {
+            if !names.contains(&mark.name.as_str()) {
+                names.push(&mark.name);
+            }
+        }
+        names
+    }
+
+    /// Whether it has an edge or a mark of that name.
+    pub fn has_line(&self, name: &str) -> bool {
+        self.edge_names().contains(&name) || self.mark_names().contains(&name)
+    }
+
+    /// Where the edges or marks of that name are declared.
     pub(super) fn declared(&self, edge: &str) -> Vec<Span> {
-        let edges = self.pieces.first().map_or(&[][..], |piece| &piece.edges);
-        edges.iter().filter(|known| known.name == edge).map(|known| known.span).collect()
+        let piece = self.pieces.first();
+        let edges = piece.into_iter().flat_map(|piece| piece.edges.iter().chain(&piece.marks));
+        edges.filter(|known| known.name == edge).map(|known| known.span).collect()
     }
 
     /// Names of its halves and copies.
@@ -227,7 +278,7 @@ impl Draft {
         let mut names: Vec<&str> = Vec::new();
         for piece in &self.pieces {
             names.extend(piece.side.as_deref());
-            names.extend(piece.edges.iter().filter_map(|edge| edge.half.as_deref()));
+            names.extend(piece.halves().map(String::as_str));
         }
         let mut seen: Vec<&str> = Vec::new();
         for name in names {

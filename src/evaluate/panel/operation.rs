@@ -4,10 +4,12 @@ use super::super::Evaluator;
 use super::super::fields::{Arg, Phrase, bare};
 use super::super::item::ItemId;
 use super::super::words::Kind;
+use super::mark::Line;
+use super::outline::Course;
 use super::sheet::{self, Drawn, Edge, Leg, Sheet};
 use super::{Counted, CutEdge, CutJoin, CutPiece, Draft, Instance, InstanceId, Standing};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::garment::panel::Crease;
+use crate::garment::panel::{Crease, Piece, Run};
 use crate::geometry::{crossing, curve};
 use crate::syntax::tree::Name;
 use crate::units::{self, Dimension};
@@ -19,9 +21,9 @@ pub(in super::super) const SHAPES: &[&str] = &["outline", "rectangle", "circle",
 impl<'t> Evaluator<'t> {
     /// Draws and cuts the panel of an instance.
     pub(super) fn cut_out(&mut self, id: InstanceId) -> Option<Draft> {
-        let Instance { item, fields, outline, holes, .. } = self.instances.get(id.0)?;
-        let (item, fields, outline, holes) =
-            (*item, fields.clone(), outline.clone(), holes.clone());
+        let Instance { item, fields, outline, drawn, .. } = self.instances.get(id.0)?;
+        let (item, fields, outline, blocks) =
+            (*item, fields.clone(), outline.clone(), drawn.clone());
         let name = self.item(item).name.clone();
         let span = self.item(item).span;
         let fabric = self.fabric_of(item, 0);
@@ -73,9 +75,14 @@ impl<'t> Evaluator<'t> {
         let cell = self.side_of_cells(&fields, shape, counted);
         // A piece of which a line is not known says nothing to those that are sewn to it.
         let mut sound = fields.spoiled.is_empty();
+        let marks = self.marks(&fields, &blocks, &format!("`{name}`"));
+        sound &= marks.is_some();
+        let mut marks = marks.unwrap_or_default();
+        sound &= self.trimmed(&fields, &mut rings, &mut marks);
+        sound &= self.marks_on_cloth(&marks, &rings);
         for (number, phrase) in fields.phrases.iter().enumerate() {
             if phrase.word.name == "hole" {
-                let read = holes.iter().find(|(n, _)| *n == number).map(|(_, read)| read);
+                let read = blocks.iter().find(|(n, _)| *n == number).map(|(_, read)| read);
                 let ring = self.hole(phrase, read, &name);
                 match ring.filter(|ring| self.within_outline(ring, &rings, phrase.span)) {
                     Some(ring) => rings.push(ring),
@@ -83,7 +90,13 @@ impl<'t> Evaluator<'t> {
                 }
             }
         }
-        let drawn: Vec<Drawn> = rings.iter().flatten().cloned().collect();
+        let marked = |line: &Line| Drawn {
+            name: Some(line.name.clone()),
+            span: line.span,
+            path: line.path.clone(),
+        };
+        let drawn: Vec<Drawn> =
+            rings.iter().flatten().cloned().chain(marks.iter().map(marked)).collect();
         let mut sheet = self.darted(&fields, &rings, &name).unwrap_or_else(|| {
             // Without its darts the piece still shows its other mistakes.
             sound = false;
@@ -91,6 +104,7 @@ impl<'t> Evaluator<'t> {
             rings.iter().for_each(|ring| plain.add_ring(ring, &[]));
             plain
         });
+        sheet.lines = marks;
         sound &= self.notched(&fields, &rings, &mut sheet);
         sound &= self.creased(&fields, &rings, &mut sheet);
         for phrase in &fields.phrases {
@@ -105,7 +119,8 @@ impl<'t> Evaluator<'t> {
                 None => sound = false,
             }
         }
-        let (sheet, halves) = self.folded(&fields, sheet, item)?;
+        let (mut sheet, halves) = self.folded(&fields, sheet, item)?;
+        sound &= self.slits(&fields, &mut sheet);
         let pieces = self.copies(&fields, sheet, halves.as_ref())?;
         // The other piece of a pair is a mirror image, and what a fit only tries is not cut: the
         // piece with the value that was found is looked at.
@@ -174,8 +189,13 @@ impl<'t> Evaluator<'t> {
         let from = shape.value("from")?;
         let start = self.point(from);
         // Without its start an outline still shows the mistakes of its edges.
-        let drawn =
-            self.draw(outline?, start.unwrap_or_default(), from.expr.span, &format!("`{name}`"));
+        let drawn = self.draw(
+            outline?,
+            start.unwrap_or_default(),
+            from.expr.span,
+            &format!("`{name}`"),
+            Course::Closed,
+        );
         start.and(drawn).map(|ring| vec![ring])
     }
 
@@ -378,6 +398,23 @@ pub(in super::super) fn cut_piece(
         flat: edge.flat,
     };
     let edges = sheet.edges.iter().map(edge).collect();
+    let lines: Vec<Piece> = sheet
+        .lines
+        .iter()
+        .map(|line| Piece { path: line.path.clone(), length: curve::length(&line.path) })
+        .collect();
+    let mark = |(number, line): (usize, &Line)| {
+        let length = lines.get(number).map_or(0.0, |line| line.length);
+        let run = Run { ring: loops.len(), piece: number, from: 0.0, to: length };
+        CutEdge {
+            name: line.name.clone(),
+            half: half_name(line.half),
+            span: line.span,
+            runs: vec![(run, (0.0, length))],
+            flat: length,
+        }
+    };
+    let marks = sheet.lines.iter().enumerate().map(mark).collect();
     let joins = sheet
         .joins
         .iter()
@@ -402,5 +439,6 @@ pub(in super::super) fn cut_piece(
             angle: crease.angle,
         })
         .collect();
-    CutPiece { side, edges, joins, creases, notches: sheet.marks(), loops }
+    let notches = sheet.notch_marks();
+    CutPiece { side, edges, marks, lines, joins, creases, notches, loops }
 }

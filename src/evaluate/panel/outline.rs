@@ -44,6 +44,13 @@ enum Way {
     Path(BezPath),
 }
 
+/// Whether a line comes back to where it began.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Course {
+    Closed,
+    Open,
+}
+
 struct Step {
     name: Option<String>,
     span: Span,
@@ -60,13 +67,15 @@ fn chord(step: &Step) -> f64 {
 }
 
 impl<'t> Evaluator<'t> {
-    /// Draws the edges of an outline or a hole. None if it cannot be drawn, which is told.
+    /// Draws the edges of an outline or a hole, or those of a line that stays open. None if it
+    /// cannot be drawn, which is told.
     pub(super) fn draw(
         &mut self,
         fields: &Fields<'t>,
         from: [f64; 2],
         from_span: Span,
         of: &str,
+        course: Course,
     ) -> Option<Vec<Drawn>> {
         let start = Point::new(from[0], from[1]);
         let mut at = start;
@@ -96,8 +105,9 @@ impl<'t> Evaluator<'t> {
             return None;
         }
         let Some(last) = steps.last() else {
+            let line = if course == Course::Closed { "the outline of " } else { "" };
             self.tell(
-                Diagnostic::new("E0401", format!("the outline of {of} has no edges"))
+                Diagnostic::new("E0401", format!("{line}{of} has no edges"))
                     .at(fields.span, "here")
                     .help("such as `hem: line to (30cm, 0)`"),
             );
@@ -105,7 +115,7 @@ impl<'t> Evaluator<'t> {
         };
         let gap = last.to - start;
         let missing = libm::hypot(gap.x, gap.y);
-        if missing > CORNER {
+        if course == Course::Closed && missing > CORNER {
             let shown = |p: Point| format!("({}, {})", units::length(p.x), units::length(p.y));
             self.tell(
                 Diagnostic::new(
@@ -121,7 +131,7 @@ impl<'t> Evaluator<'t> {
             );
             return None;
         }
-        if let Some(last) = steps.last_mut() {
+        if let Some(last) = steps.last_mut().filter(|_| missing <= CORNER) {
             last.to = start;
             if let Way::Path(path) = &mut last.way {
                 curve::end_at(path, start);
@@ -135,7 +145,7 @@ impl<'t> Evaluator<'t> {
             );
             return None;
         }
-        self.bend(&mut steps)?;
+        self.bend(&mut steps, course)?;
         self.finish(steps, of)
     }
 
@@ -360,8 +370,9 @@ impl<'t> Evaluator<'t> {
     }
 
     /// Settles bows and the directions at the ends of curves.
-    fn bend(&mut self, steps: &mut [Step]) -> Option<()> {
-        // Which way round: outwards is to the right of an anticlockwise outline.
+    fn bend(&mut self, steps: &mut [Step], course: Course) -> Option<()> {
+        // Which way round: outwards is to the right of an anticlockwise outline, and of a line that
+        // encloses nothing.
         let mut corners: Vec<[f64; 2]> = Vec::new();
         for step in steps.iter() {
             corners.push([step.from.x, step.from.y]);
@@ -380,7 +391,8 @@ impl<'t> Evaluator<'t> {
                 _ => {}
             }
         }
-        let clockwise = crate::geometry::polygon::signed_area(&corners) < 0.0;
+        let clockwise =
+            course == Course::Closed && crate::geometry::polygon::signed_area(&corners) < 0.0;
         for step in steps.iter_mut() {
             let left = |outward: bool| outward == clockwise;
             let bowed = match step.way {
@@ -413,18 +425,19 @@ impl<'t> Evaluator<'t> {
                 step.arriving = Some(curve::arriving(path));
             }
         }
-        self.turn(steps)
+        self.turn(steps, course)
     }
 
     /// Directions that hang on neighbours, worked out until none is left.
-    fn turn(&mut self, steps: &mut [Step]) -> Option<()> {
+    fn turn(&mut self, steps: &mut [Step], course: Course) -> Option<()> {
         let n = steps.len();
+        let closed = course == Course::Closed;
         loop {
             let mut moved = false;
             let mut open = false;
             for i in 0..n {
-                let before = steps[(i + n - 1) % n].arriving;
-                let after = steps[(i + 1) % n].leaving;
+                let before = steps[(i + n - 1) % n].arriving.filter(|_| closed || i > 0);
+                let after = steps[(i + 1) % n].leaving.filter(|_| closed || i + 1 < n);
                 let step = &steps[i];
                 let (leaving, arriving, through) = match &step.way {
                     Way::Curve { leaving, arriving, .. } => (*leaving, *arriving, None),

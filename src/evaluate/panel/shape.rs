@@ -2,6 +2,7 @@
 
 use super::super::Evaluator;
 use super::super::fields::{Arg, Phrase};
+use super::outline::Course;
 use super::sheet::{self, Drawn};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::curve;
@@ -189,7 +190,7 @@ impl<'t> Evaluator<'t> {
             return None;
         };
         let start = self.point(from)?;
-        self.draw(read, start, from.expr.span, &format!("a hole in `{name}`"))
+        self.draw(read, start, from.expr.span, &format!("a hole in `{name}`"), Course::Closed)
     }
 }
 

@@ -1,6 +1,7 @@
 //! A piece of cloth while it is cut: rings of pieces and the edges that run along them; darts,
 //! folds and copies as operations on them.
 
+use super::mark::Line;
 use super::mouth::{self, Cut};
 use crate::diagnostic::Span;
 use crate::garment::panel::{Loop, Notch, Piece, Run};
@@ -66,6 +67,8 @@ pub struct Sheet {
     pub joins: Vec<Join>,
     pub creases: Vec<Crease>,
     pub notches: Vec<(Point, Vec2)>,
+    /// Lines drawn on it.
+    pub lines: Vec<Line>,
 }
 
 /// An edge as drawn.
@@ -145,7 +148,12 @@ impl Sheet {
             .iter()
             .map(|crease| Crease { from: map * crease.from, to: map * crease.to, ..*crease })
             .collect();
-        Sheet { rings, notches, creases, ..self.clone() }
+        let lines = self
+            .lines
+            .iter()
+            .map(|line| Line { path: curve::mapped(&line.path, map), ..line.clone() })
+            .collect();
+        Sheet { rings, notches, creases, lines, ..self.clone() }
     }
 
     /// The sheet with its mirror image about the fold, which is piece `fold` of the outline.
@@ -248,7 +256,8 @@ impl Sheet {
         creases.extend(mirrored.creases);
         let mut notches = self.notches.clone();
         notches.extend(mirrored.notches);
-        Sheet { rings, edges, joins, creases, notches }
+        let lines = unfolded_lines(&self.lines, &mirrored.lines, line);
+        Sheet { rings, edges, joins, creases, notches, lines }
     }
 
     /// Turns rings so that the outline runs anticlockwise and holes run clockwise.
@@ -290,7 +299,7 @@ impl Sheet {
     }
 
     /// The notches as unit marks.
-    pub fn marks(&self) -> Vec<Notch> {
+    pub fn notch_marks(&self) -> Vec<Notch> {
         self.notches
             .iter()
             .map(|(at, inward)| {
@@ -301,7 +310,35 @@ impl Sheet {
     }
 }
 
-/// Edges of one ring, of which those that follow each other under one name are one.
+/// Lines with their mirror images about a fold: one line goes through the fold where it ends on it,
+/// and one along the fold stays one.
+fn unfolded_lines(drawn: &[Line], mirrored: &[Line], fold: &BezPath) -> Vec<Line> {
+    let (from, along) = (curve::start(fold), curve::end(fold) - curve::start(fold));
+    let on_fold = |point: Point| along.cross(point - from).abs() <= CORNER * along.hypot();
+    let mut lines = Vec::new();
+    for (line, image) in drawn.iter().zip(mirrored) {
+        let (start, end) = (curve::start(&line.path), curve::end(&line.path));
+        let middle = curve::at(&line.path, curve::length(&line.path) / 2.0).0;
+        let through = |first: &BezPath, second: &BezPath| {
+            let mut path = first.clone();
+            path.extend(second.iter().skip(1));
+            Line { path, ..line.clone() }
+        };
+        let turned = curve::reversed(&image.path);
+        match [start, middle, end].map(on_fold) {
+            [true, true, true] => lines.push(line.clone()),
+            [true, ..] => lines.push(through(&turned, &line.path)),
+            [.., true] => lines.push(through(&line.path, &turned)),
+            _ => {
+                lines.push(Line { half: Some(0), ..line.clone() });
+                lines.push(Line { half: Some(1), ..image.clone() });
+            }
+        }
+    }
+    lines
+}
+
+/// Edges of one ring, of which those of one name are one.
 fn run_on(list: Vec<Edge>) -> Vec<Edge> {
     let mut edges: Vec<Edge> = Vec::new();
     for edge in list {
@@ -319,7 +356,15 @@ fn run_on(list: Vec<Edge>) -> Vec<Edge> {
             append(last, first);
         }
     }
-    edges
+    // A cut may have taken the middle out of one.
+    let mut whole: Vec<Edge> = Vec::new();
+    for edge in edges {
+        match whole.iter_mut().find(|before| before.name == edge.name) {
+            Some(before) => append(before, edge),
+            None => whole.push(edge),
+        }
+    }
+    whole
 }
 
 fn append(before: &mut Edge, edge: Edge) {

@@ -56,8 +56,8 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "patch",
-                "PIECE on PIECE at POINT [ turn ANGLE ] [ open EDGE,… ]",
-                "sews a piece flat on another along its edges, but for the open ones; (0, 0) of its drawing comes to the point of the other's: `patch pocket on front.left at (14cm, -22cm) open top`",
+                "PIECE on PIECE ( at POINT | along MARK ) [ turn ANGLE ] [ open EDGE,… ]",
+                "sews a piece flat on another along its edges, but for the open ones; (0, 0) of its drawing comes to the point of the other's, or its first open edge along a mark: `patch pocket on front.left at (14cm, -22cm) open top`",
             ),
             action(
                 "place",

@@ -50,6 +50,22 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 Kind::Outline,
                 "a closed inner outline: `hole from P { edges }`, `hole circle at P radius L`, `hole ellipse at P radius L x L`, `hole slit from P to P`",
             ),
+            opening(
+                "mark",
+                "NAME from POINT",
+                Kind::Outline,
+                "a line drawn on the piece, with a name: `mark pocket from P { line to Q }`",
+            ),
+            action(
+                "slit",
+                "along MARK [ facing LENGTH ]",
+                "cuts the cloth open along a mark; its lips are edges by the name of the mark, or the label, with 1 at the left of its course and 2 at the right; `facing` lays a band of further cloth along both",
+            ),
+            action(
+                "trim",
+                "along MARK keep SIDE",
+                "cuts the piece along a mark from rim to rim and keeps the side of an edge or of a point; the cut is an edge by the name of the mark",
+            ),
             action("notch", "on EDGE at POSITION [ from EDGE ]", "a match mark"),
             action(
                 "leave",
