@@ -3,6 +3,7 @@
 use super::bending::{self, Fold};
 use super::crease::Crease;
 use super::doubled::{self, More};
+use super::gather::Gathers;
 use super::grid::Taken;
 use super::matrix::Pattern;
 use super::membrane::{self, Triangle};
@@ -79,6 +80,7 @@ impl Cloth {
             ..Cloth::default()
         };
         let more = doubled::more(compiled);
+        let gathers = Gathers::new(compiled);
         let mut damping = 0.0;
         #[allow(clippy::cast_possible_truncation)]
         let plane = |particles: &[u32]| {
@@ -139,7 +141,7 @@ impl Cloth {
                 cloth.springs.push(Spring {
                     ends: [a, b].map(|p| cloth.weld.knot[p as usize]),
                     slots: None,
-                    rest: h,
+                    rest: h * gathers.share(a, b).unwrap_or(1.0),
                     stiffness: 0.5 * modulus * same.len() as f64 + 0.5 * more,
                     warp,
                 });
@@ -159,6 +161,7 @@ impl Cloth {
                         *s = s.min(length);
                     }
                 }
+                let uv = gathers.draw_in(particles, uv);
                 let Some((gradient, area)) = membrane::rest(uv) else { continue };
                 lump(&mut cloth, &corners, area, more);
                 cloth.triangles.push(Triangle {

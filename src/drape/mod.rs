@@ -2,12 +2,14 @@
 
 pub mod air;
 pub mod bending;
+pub mod chord;
 pub mod cloth;
 pub mod crease;
 pub mod crossing;
 pub mod doubled;
 pub mod draped;
 pub mod elastic;
+pub mod gather;
 pub mod grid;
 pub mod hold;
 pub mod ladder;

@@ -6,6 +6,7 @@
 //! touches is held to the point of the skin where it came to rest by a spring that gives
 //! 0.1 mm before it slips, so that cloth at rest does not creep.
 
+use super::chord::{self, Chords};
 use super::cloth::Cloth;
 use super::matrix::ROWS;
 use crate::body::distance::Field;
@@ -17,7 +18,7 @@ use rayon::prelude::*;
 pub const MARGIN: f64 = 1.8e-3;
 
 /// How far a loaded knot may press into that space, m.
-const GIVE: f64 = 1.0e-3;
+pub(super) const GIVE: f64 = 1.0e-3;
 
 /// Contact stiffness per area, N/m³: the pressure of a tight waistband, 800 Pa, presses 0.4 mm.
 const STIFFNESS: f64 = 2.0e6;
@@ -108,6 +109,7 @@ pub struct Touch {
 #[derive(Clone, Debug, Default)]
 pub struct Contact {
     touches: Vec<Touch>,
+    chords: Chords,
     any: bool,
 }
 
@@ -117,20 +119,10 @@ pub type Push = (Vector3<f64>, Matrix3<f64>);
 impl Contact {
     /// Looks for skin near all knots.
     pub fn new(cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) -> Self {
-        let touches = x
-            .iter()
-            .map(|x| Touch {
-                known: false,
-                at: *x,
-                distance: 0.0,
-                normal: Vector3::y(),
-                friction: 0.0,
-                anchor: None,
-                load: 0.0,
-                active: 0.0,
-            })
-            .collect();
-        let mut contact = Contact { touches, any: skin.nearest(&Vector3::zeros()).is_some() };
+        let touches = x.iter().map(|x| Touch::new(*x)).collect();
+        let any = skin.nearest(&Vector3::zeros()).is_some();
+        let chords = if any { Chords::new(cloth, x) } else { Chords::default() };
+        let mut contact = Contact { touches, chords, any };
         contact.look(cloth, skin, x);
         contact
     }
@@ -156,20 +148,9 @@ impl Contact {
             return;
         }
         self.touches.par_iter_mut().zip(x).enumerate().with_min_len(64).for_each(
-            |(i, (touch, x))| {
-                let moved = (x - touch.at).norm();
-                let far = touch.distance - moved > Self::seat(cloth, i) + REACH;
-                if touch.known && (far || moved < TURN) {
-                    return;
-                }
-                let Some(nearest) = skin.nearest(x) else { return };
-                touch.known = true;
-                touch.at = *x;
-                touch.distance = nearest.distance;
-                touch.normal = nearest.normal;
-                touch.friction = nearest.friction.unwrap_or(cloth.friction[i]).max(0.0);
-            },
+            |(i, (touch, x))| touch.look(skin, x, Self::seat(cloth, i), cloth.friction[i]),
         );
+        self.chords.look(cloth, skin, x);
     }
 
     /// How far a knot may go in one step, m: beyond the reach of skin as far as skin is away,
@@ -196,7 +177,8 @@ impl Contact {
         if !self.any {
             return Vec::new();
         }
-        self.touches
+        let mut pushes: Vec<Option<Push>> = self
+            .touches
             .par_iter_mut()
             .zip(x)
             .zip(ahead)
@@ -206,7 +188,9 @@ impl Contact {
             .map(|(i, (((touch, x), ahead), slide))| {
                 touch.push(Self::seat(cloth, i), cloth.area[i], x, ahead, slide, grip)
             })
-            .collect()
+            .collect();
+        self.chords.push(cloth, x, ahead, &mut pushes);
+        pushes
     }
 
     /// Bends an expected movement so that knots in contact come to lie on the skin, and takes
@@ -259,15 +243,14 @@ impl Contact {
         if !self.any {
             return;
         }
-        for (i, touch) in self.touches.iter_mut().enumerate() {
-            let least = Self::seat(cloth, i) - GIVE;
-            let distance = touch.distance + (x[i] - touch.at).dot(&touch.normal);
-            if touch.near(&x[i], Self::seat(cloth, i)) && distance < least {
-                x[i] += touch.normal * (least - distance);
+        for (i, touch) in self.touches.iter().enumerate() {
+            if let Some(way) = touch.out(&x[i], Self::seat(cloth, i)) {
+                x[i] += way;
                 let inward = v[i].dot(&touch.normal).min(0.0);
                 v[i] -= touch.normal * inward;
             }
         }
+        self.chords.lift(cloth, x, v);
     }
 }
 
@@ -275,16 +258,7 @@ impl Contact {
 /// middles are under it. Gives the greatest depth that is left at any of those places, m.
 pub fn clear(cloth: &Cloth, skin: &dyn Skin, x: &mut [Vector3<f64>]) -> f64 {
     let mut places: Vec<Vec<u32>> = (0..x.len() as u32).map(|k| vec![k]).collect();
-    let mut edges: Vec<[u32; 2]> = Vec::new();
-    for f in &cloth.faces {
-        edges.extend([0, 1, 2].map(|k| {
-            let (a, b) = (f[k], f[(k + 1) % 3]);
-            [a.min(b), a.max(b)]
-        }));
-    }
-    edges.sort_unstable();
-    edges.dedup();
-    places.extend(edges.into_iter().map(|e| e.to_vec()));
+    places.extend(chord::edges(cloth).into_iter().map(|e| e.to_vec()));
     places.extend(cloth.faces.iter().map(|f| f.to_vec()));
     let mut deepest = 0.0f64;
     for _ in 0..CLEARINGS {
@@ -345,12 +319,49 @@ pub fn raise(cloth: &mut Cloth, skin: &dyn Skin, x: &[Vector3<f64>]) -> bool {
 }
 
 impl Touch {
+    /// What a knot at a place knows before it has looked.
+    pub(super) fn new(at: Vector3<f64>) -> Self {
+        Touch {
+            known: false,
+            at,
+            distance: 0.0,
+            normal: Vector3::y(),
+            friction: 0.0,
+            anchor: None,
+            load: 0.0,
+            active: 0.0,
+        }
+    }
+
+    /// Brings the distance up to date where the skin may have come near or turned since; `own` is
+    /// the friction of the cloth.
+    pub(super) fn look(&mut self, skin: &dyn Skin, x: &Vector3<f64>, seat: f64, own: f64) {
+        let moved = (x - self.at).norm();
+        let far = self.distance - moved > seat + REACH;
+        if self.known && (far || moved < TURN) {
+            return;
+        }
+        let Some(nearest) = skin.nearest(x) else { return };
+        self.known = true;
+        self.at = *x;
+        self.distance = nearest.distance;
+        self.normal = nearest.normal;
+        self.friction = nearest.friction.unwrap_or(own).max(0.0);
+    }
+
+    /// The way out to the margin from deeper than it allows.
+    pub(super) fn out(&self, x: &Vector3<f64>, seat: f64) -> Option<Vector3<f64>> {
+        let least = seat - GIVE;
+        let distance = self.distance + (x - self.at).dot(&self.normal);
+        (self.near(x, seat) && distance < least).then(|| self.normal * (least - distance))
+    }
+
     /// Whether skin is so near that a step may reach it.
     fn near(&self, x: &Vector3<f64>, seat: f64) -> bool {
         self.distance - (x - self.at).norm() <= seat + REACH
     }
 
-    fn push(
+    pub(super) fn push(
         &mut self,
         seat: f64,
         area: f64,

@@ -102,6 +102,11 @@ impl<'a> Families<'a> {
             }
         }
         let Some(seen) = longest else { return false };
+        // A gusset lies between both and follows when they lie.
+        let on = |is: &dyn Fn(usize) -> bool| joins.of(panel).any(|s| is(s.other));
+        if on(&|p| self.on_limb(p).is_some()) && on(&|p| self.in_trunk(p).is_some()) {
+            return false;
+        }
         if let Some((limb, partner)) = self.on_limb(seen.other) {
             let lay = layplan::lay_below(compiled, joins, (panel, &seen), &partner);
             self.limbs[limb].led.push((panel, lay));

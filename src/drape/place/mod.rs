@@ -16,6 +16,7 @@ mod layplan;
 mod led;
 mod leg;
 mod limb;
+mod ripple;
 mod section;
 mod trunk;
 

@@ -9,6 +9,8 @@ const STEP: f64 = 0.01;
 const SLAB: f64 = 0.04;
 /// Cloth that begins no further below the neck than this goes round it and not round the trunk, m.
 const COLLAR: f64 = 0.06;
+/// Half the length of line over which its direction is taken, m.
+const TANGENT: f64 = 0.02;
 /// Corners of the disc by which a section is widened.
 const ROUND: usize = 48;
 
@@ -181,6 +183,18 @@ impl Ring {
         nearest.1 / self.girth().max(1e-9)
     }
 
+    /// The point `out` outside of the one at arc length `s`, m.
+    pub(super) fn beside(&self, s: f64, out: f64) -> [f64; 2] {
+        let [x, z] = self.point(s);
+        if out == 0.0 {
+            return [x, z];
+        }
+        let (a, b) = (self.point(s - TANGENT), self.point(s + TANGENT));
+        let length = libm::hypot(b[0] - a[0], b[1] - a[1]).max(1e-9);
+        // It runs from the front to the wearer's left: outside is at its left seen from below.
+        [x - out * (b[1] - a[1]) / length, z + out * (b[0] - a[0]) / length]
+    }
+
     /// The point at arc length `s` (any number; it goes round) as x and z.
     pub(super) fn point(&self, s: f64) -> [f64; 2] {
         let girth = self.girth();
@@ -256,6 +270,10 @@ mod tests {
         assert!(front[0].abs() < 1e-12 && (front[1] - 0.15).abs() < 1e-12);
         let left = ring.point(ring.girth() / 4.0);
         assert!(left[0] > 0.14, "a quarter round lies at the wearer's left: {left:?}");
+        assert!(
+            (ring.beside(0.0, 0.02)[1] - 0.17).abs() < 1e-9,
+            "outside of the front lies before it"
+        );
         let back = ring.point(-ring.girth() / 2.0);
         assert!(back[0].abs() < 1e-3 && back[1] < -0.14);
     }

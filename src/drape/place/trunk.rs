@@ -4,6 +4,7 @@
 use super::family::{Family, Member};
 use super::joins::{Joins, reach};
 use super::layplan::{MEETING, middle};
+use super::ripple::Ripple;
 use super::section::{self, Ring, Sections};
 use crate::garment::scene::Side;
 use crate::mesh::compiled::Compiled;
@@ -37,7 +38,12 @@ pub(super) fn roll(
     let sections = Sections::new(family.root.body, low, high);
     let gap = family.gap;
     turn_beside(joins, family, done, positions, &sections, gap);
-    let wanted = girths(compiled, joins, &family.members, low, sections.count());
+    let ripple = gathers(joins, family, done, positions);
+    let share = ripple.as_ref().map_or(1.0, Ripple::share);
+    let wanted: Vec<f64> = girths(compiled, joins, &family.members, low, sections.count())
+        .into_iter()
+        .map(|girth| girth * share)
+        .collect();
     let gaps: Vec<f64> =
         (0..sections.count()).map(|k| gap.max((wanted[k] - sections.girth(k)) / TAU)).collect();
     let gaps = if family.members.len() == 1 {
@@ -55,7 +61,8 @@ pub(super) fn roll(
             for [own, other] in pairs(joins, member.panel, done) {
                 let [x, height] = member.lay.at(joins.drawn[own]);
                 let ring = &rings[sections.at(height).0];
-                turns.push(ring.share(&positions[other]) - member.lay.part - x / ring.girth());
+                let x = x * share / ring.girth();
+                turns.push(ring.share(&positions[other]) - member.lay.part - x);
             }
         }
         let turn = mean_turn(turns.into_iter());
@@ -67,12 +74,33 @@ pub(super) fn roll(
         for particle in compiled.panels[member.panel].particles.range() {
             let [x, height] = member.lay.at(joins.drawn[particle]);
             let (k, t) = sections.at(height);
-            let walk = |ring: &Ring| ring.point(member.lay.part * ring.girth() + x);
+            let [x, out] = ripple.as_ref().map_or([x, 0.0], |ripple| ripple.at(x));
+            let walk = |ring: &Ring| ring.beside(member.lay.part * ring.girth() + x, out);
             let (a, b) = (walk(&rings[k]), walk(&rings[(k + 1).min(rings.len() - 1)]));
             positions[particle] =
                 Point3::new(a[0] + t * (b[0] - a[0]), height, a[1] + t * (b[1] - a[1]));
         }
     }
+}
+
+/// The waves in which a single piece begins that is longer than the edge it hangs on.
+fn gathers(
+    joins: &Joins,
+    family: &Family,
+    done: &[bool],
+    positions: &[Point3<f64>],
+) -> Option<Ripple> {
+    let [member] = &family.members[..] else { return None };
+    let (mut own, mut theirs) = (0.0, 0.0);
+    for seen in joins.of(member.panel).filter(|s| family.hung && done[s.other]) {
+        let pairs: Vec<[usize; 2]> = seen.pairs().collect();
+        for w in pairs.windows(2) {
+            let (a, b) = (joins.drawn[w[0][0]], joins.drawn[w[1][0]]);
+            own += libm::hypot(b[0] - a[0], b[1] - a[1]);
+            theirs += (positions[w[1][1]] - positions[w[0][1]]).norm();
+        }
+    }
+    Ripple::new(own, theirs / own)
 }
 
 /// Pairs of a panel with panels that are `done`.
