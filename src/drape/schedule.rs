@@ -22,6 +22,11 @@ pub struct Course {
 /// Most steps to close the seams.
 const SEWING_STEPS: usize = 600;
 
+/// Gap at which body and sleeves count as closed before the sleeves are set in, m, and most steps
+/// until then.
+const TACKED: f64 = 5e-3;
+const TACKING_STEPS: usize = 200;
+
 /// How far along an open seam its cloth may pass through itself, m; then all along it, where it
 /// would not close otherwise.
 const ROOM: [f64; 2] = [0.05, f64::INFINITY];
@@ -42,6 +47,9 @@ const WINDOW: f64 = 0.25;
 /// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m. With
 /// `layers` the cloth is kept apart meanwhile.
 ///
+/// As a tailor does, first the body and the sleeves each for themselves, then the sleeves are set
+/// in: drawn all at once, fronts and backs would get caught on the wrong side of a sleeve.
+///
 /// # Errors
 /// [`Stuck`] from the step.
 pub fn sew(
@@ -51,12 +59,30 @@ pub fn sew(
     progress: &mut dyn Progress,
 ) -> Result<Course, Stuck> {
     let mut course = Course::default();
+    let sleeves = shop.sewing.pairs.iter().any(|s| s.sets_in);
+    if sleeves && shop.sewing.pairs.iter().any(|s| !s.sets_in) {
+        shop.sewing.waiting = true;
+        draw_together(shop, (TACKED, TACKING_STEPS), layers, &mut course, progress)?;
+        shop.sewing.waiting = false;
+    }
+    draw_together(shop, (gap, SEWING_STEPS), layers, &mut course, progress)?;
+    Ok(course)
+}
+
+fn draw_together(
+    shop: &mut Workshop<'_>,
+    (gap, most): (f64, usize),
+    layers: bool,
+    course: &mut Course,
+    progress: &mut dyn Progress,
+) -> Result<(), Stuck> {
     let mut strength = 1.0f64;
     let first = shop.sewing.gap(&shop.x).0;
     let mut least = f64::INFINITY;
     let mut since = 0;
     let mut room = 0;
-    while course.steps < SEWING_STEPS {
+    course.reached = false;
+    for _ in 0..most {
         let (widest, _) = shop.sewing.gap(&shop.x);
         if widest <= gap {
             course.reached = true;
@@ -92,9 +118,9 @@ pub fn sew(
             layers,
             aim: Aim { tolerance: 2e-2, most: 200 },
         })?;
-        add(&mut course, taken);
+        add(course, taken);
     }
-    Ok(course)
+    Ok(())
 }
 
 /// Presses seams that have just been sewn: without weight and without friction on the skin the cloth

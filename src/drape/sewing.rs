@@ -1,6 +1,7 @@
 //! Seams while they are still open: pairs that draw each other with a bounded force.
 
 use super::weld::Weld;
+use crate::garment::scene::Placement;
 use crate::mesh::compiled::Compiled;
 use nalgebra::Vector3;
 
@@ -16,6 +17,8 @@ const NEAR: f64 = 2.0e-3;
 pub struct Sewing {
     /// Pairs that are still two knots.
     pub pairs: Vec<Stitch>,
+    /// Whether sleeves are not yet set in.
+    pub waiting: bool,
 }
 
 /// A pair to be sewn.
@@ -29,22 +32,27 @@ pub struct Stitch {
     pub seam: usize,
     /// Where its blocks stand in the matrix.
     pub slots: [u32; 2],
+    /// Whether it sets a sleeve in: joins what is placed on an arm to what is not.
+    pub sets_in: bool,
 }
 
 impl Sewing {
     /// Open pairs of the seams; slots are filled in by [`Sewing::lay_out`].
     pub fn new(compiled: &Compiled, weld: &Weld) -> Self {
         let mut pairs = Vec::new();
+        let on_arm = on_arms(compiled);
         for (seam, s) in compiled.seams.iter().enumerate() {
             let length = seam_length(compiled, &s.pairs) / s.pairs.len().max(1) as f64;
             for pair in &s.pairs {
                 let knots = pair.map(|p| weld.knot[p as usize]);
                 if knots[0] != knots[1] {
-                    pairs.push(Stitch { knots, length: length.max(1e-4), seam, slots: [0; 2] });
+                    let [a, b] = pair.map(|p| on_arm[p as usize]);
+                    let length = length.max(1e-4);
+                    pairs.push(Stitch { knots, length, seam, slots: [0; 2], sets_in: a != b });
                 }
             }
         }
-        Sewing { pairs }
+        Sewing { pairs, waiting: false }
     }
 
     /// Finds the places of the pairs in the matrix.
@@ -57,10 +65,15 @@ impl Sewing {
         }
     }
 
-    /// The widest gap, m, and the number of its seam.
+    /// The pairs that are drawn together now.
+    pub fn drawn(&self) -> impl Iterator<Item = &Stitch> {
+        self.pairs.iter().filter(|s| !(self.waiting && s.sets_in))
+    }
+
+    /// The widest gap of those, m, and the number of its seam.
     pub fn gap(&self, x: &[Vector3<f64>]) -> (f64, usize) {
         let mut widest = (0.0, 0);
-        for stitch in &self.pairs {
+        for stitch in self.drawn() {
             let [a, b] = stitch.knots;
             let gap = (x[a as usize] - x[b as usize]).norm();
             if gap > widest.0 {
@@ -77,6 +90,17 @@ impl Stitch {
     pub fn stiffness(&self, gap: f64, strength: f64) -> f64 {
         strength * PULL * self.length / gap.max(NEAR)
     }
+}
+
+/// Which particles belong to panels placed on an arm.
+fn on_arms(compiled: &Compiled) -> Vec<bool> {
+    let mut on_arm = vec![false; compiled.particles.len()];
+    for panel in &compiled.panels {
+        if let Placement::Wrapped { landmark, .. } = &panel.placement {
+            on_arm[panel.particles.range()].fill(landmark.starts_with("arm."));
+        }
+    }
+    on_arm
 }
 
 fn seam_length(compiled: &Compiled, pairs: &[[u32; 2]]) -> f64 {

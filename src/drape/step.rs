@@ -145,7 +145,8 @@ impl<'a> Workshop<'a> {
         let system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
         let mut v = vec![Vector3::zeros(); x.len()];
-        let mut contact = Contact::new(&cloth, skin, &x);
+        // Cloth that is being sewn would be caught by its edges on its way past the body.
+        let mut contact = Contact::new(&cloth, skin, &x, sewing.pairs.is_empty());
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
             compiled,
@@ -334,7 +335,7 @@ impl<'a> Workshop<'a> {
         let mut force = self.system.assemble(&self.cloth, x, &self.last, scale);
         self.cloth.creases.iter().for_each(|crease| crease.press(x, &mut force));
         let off = &mut self.system.rim.matrix.off;
-        for stitch in self.sewing.pairs.iter().filter(|_| manner.sewing > 0.0) {
+        for stitch in self.sewing.drawn().filter(|_| manner.sewing > 0.0) {
             let [a, b] = stitch.knots.map(|k| k as usize);
             let way = x[b] - x[a];
             let k = stitch.stiffness(way.norm(), manner.sewing);

@@ -66,7 +66,13 @@ mod tests {
     /// further along another may not.
     #[test]
     fn only_cloth_of_one_seam_may_touch() {
-        let stitch = |a, b, seam| Stitch { knots: [a, b], length: 0.01, seam, slots: [0; 2] };
+        let stitch = |a, b, seam| Stitch {
+            knots: [a, b],
+            length: 0.01,
+            seam,
+            slots: [0; 2],
+            sets_in: false,
+        };
         // Seams 0 (0-1, 2-3) and 1 (4-5, 6-7), joined at their ends by seam 2 (2-4).
         let stitches = [stitch(0, 1, 0), stitch(2, 3, 0), stitch(4, 5, 1), stitch(6, 7, 1)];
         let mut open = Open::new(9, &[&stitches[..], &[stitch(2, 4, 2)]].concat());

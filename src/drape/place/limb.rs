@@ -41,7 +41,7 @@ pub(super) fn wrap(
 
     // A limb of the body begins where its level lies along the axis.
     let level = wrapped.level.map_or(0.0, |name| (centre(wrapped.body, name) - start).dot(&axis));
-    let thick = Thickness::new(wrapped, (points, radii), start, axis);
+    let course = Course::new(wrapped, (points, radii), start, [axis, out, right]);
     let own = std::iter::once((wrapped.number, Lay::default()));
     let pieces: Vec<(usize, Lay)> = own.chain(limb.led.iter().copied()).collect();
     let places: Vec<(usize, [f64; 2])> = pieces
@@ -77,7 +77,7 @@ pub(super) fn wrap(
     let radii = |moved: f64| {
         let mut radius: Vec<f64> = (0..rows)
             .map(|k| {
-                let limb = thick.at(station(top - k as f64 * ROW, moved));
+                let (_, limb) = course.at(station(top - k as f64 * ROW, moved));
                 let round = 2.0 * wide[k.max(widest)] * MEETING / TAU;
                 round.max(limb + wrapped.gap.min(NARROW))
             })
@@ -92,8 +92,13 @@ pub(super) fn wrap(
         let k = (row as usize).min(rows - 2);
         let t = (row - k as f64).clamp(0.0, 1.0);
         let r = radius[k] + t * (radius[k + 1] - radius[k]);
+        let along = station(y, moved);
+        let k = (along / ROW).floor();
+        let (a, b) = (course.at(k * ROW).0, course.at((k + 1.0) * ROW).0);
+        let middle = [0, 1].map(|c| a[c] + (along / ROW - k) * (b[c] - a[c]));
         let angle = x / r;
-        start + axis * station(y, moved) + (out * libm::cos(angle) + right * libm::sin(angle)) * r
+        let [o, w] = [middle[0] + r * libm::cos(angle), middle[1] + r * libm::sin(angle)];
+        start + axis * along + out * o + right * w
     };
 
     let cell =
@@ -121,18 +126,19 @@ pub(super) fn wrap(
     }
 }
 
-/// How far a limb with its hand or foot reaches from a straight line through it.
-struct Thickness {
-    /// Of each centimetre along the line, m.
-    rows: Vec<f64>,
+/// Where a limb with its hand or foot lies about the straight line through it.
+struct Course {
+    /// Of each centimetre along the line: the middle, outwards and to the right, and how far the
+    /// limb reaches from there, m.
+    rows: Vec<([f64; 2], f64)>,
 }
 
-impl Thickness {
+impl Course {
     fn new(
         wrapped: &Wrapped,
         (points, radii): (&[Point3<f64>], &[f64]),
         start: Point3<f64>,
-        axis: Vector3<f64>,
+        [axis, out, right]: [Vector3<f64>; 3],
     ) -> Self {
         let body = wrapped.body;
         let part = match wrapped.landmark {
@@ -144,30 +150,44 @@ impl Thickness {
         };
         let skin = body.vertices.iter().zip(&body.parts).filter(|(_, p)| Some(**p) == part);
         let all = points.iter().zip(radii).map(|(p, r)| (*p, *r));
-        let mut rows: Vec<f64> = Vec::new();
+        let mut slabs: Vec<Vec<([f64; 2], f64)>> = Vec::new();
         for (p, r) in all.chain(skin.map(|(p, _)| (*p, 0.0))) {
-            let along = (p - start).dot(&axis);
-            let away = (p - start - axis * along).norm() + r;
-            let row = (along / ROW).round().max(0.0) as usize;
-            if row >= rows.len() {
-                rows.resize(row + 1, 0.0);
+            let off = p - start;
+            let row = (off.dot(&axis) / ROW).round().max(0.0) as usize;
+            if row >= slabs.len() {
+                slabs.resize(row + 1, Vec::new());
             }
-            rows[row] = rows[row].max(away);
+            slabs[row].push(([off.dot(&out), off.dot(&right)], r));
         }
-        // Where nothing of it lies the limb goes on as before.
-        for k in 1..rows.len() {
-            if rows[k] == 0.0 {
-                rows[k] = rows[k - 1];
-            }
+        let mut rows: Vec<([f64; 2], f64)> = Vec::new();
+        for slab in &slabs {
+            // Where nothing of it lies the limb goes on as before.
+            let Some(row) = enclose(slab).or(rows.last().copied()) else { continue };
+            rows.push(row);
         }
-        Thickness { rows }
+        Course { rows }
     }
 
-    /// Within two centimetres of a place along the line, m; at both ends the limb goes on.
-    fn at(&self, station: f64) -> f64 {
+    /// Middle and reach of all within two centimetres of a place along the line, m; at both ends the
+    /// limb goes on.
+    fn at(&self, station: f64) -> ([f64; 2], f64) {
         let last = self.rows.len().saturating_sub(1);
         let row = ((station / ROW).round().max(0.0) as usize).min(last);
         let near = &self.rows[row.saturating_sub(2)..(row + 3).min(self.rows.len())];
-        near.iter().copied().fold(0.0, f64::max)
+        enclose(near).unwrap_or_default()
     }
+}
+
+/// The middle of discs and how far they reach from it.
+fn enclose(discs: &[([f64; 2], f64)]) -> Option<([f64; 2], f64)> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for (p, r) in discs {
+        for c in 0..2 {
+            low[c] = low[c].min(p[c] - r);
+            high[c] = high[c].max(p[c] + r);
+        }
+    }
+    let middle = [0, 1].map(|c| 0.5 * (low[c] + high[c]));
+    let reach = |(p, r): &([f64; 2], f64)| libm::hypot(p[0] - middle[0], p[1] - middle[1]) + r;
+    (!discs.is_empty()).then(|| (middle, discs.iter().map(reach).fold(0.0, f64::max)))
 }
