@@ -121,6 +121,46 @@ const LOW: f64 = 0.1;
 const RAISINGS: usize = 3;
 const AGAIN: f64 = 5.0;
 
+/// A cloth whose seams have been closed and pressed.
+struct SewnUp<'a> {
+    shop: Workshop<'a>,
+    course: Result<Course, Stuck>,
+    /// The widest gap that was left, m, and its seam; none if all were closed.
+    open: Option<(f64, usize)>,
+    /// How many pairs of faces cut each other.
+    cuts: usize,
+}
+
+impl SewnUp<'_> {
+    /// The lower the better.
+    fn rank(&self) -> (bool, bool, usize) {
+        (self.course.is_err(), self.open.is_some(), self.cuts)
+    }
+}
+
+/// Closes the seams until none is wider than the gap, in turn or all at once, and presses them.
+fn sew_up<'a>(
+    mut shop: Workshop<'a>,
+    (surfaces, skin): (&[Surface], &'a dyn Skin),
+    (gap, in_turn): (f64, bool),
+    progress: &mut dyn Progress,
+) -> SewnUp<'a> {
+    let compiled = shop.compiled();
+    let course = schedule::sew(&mut shop, gap, in_turn, true, progress);
+    let open = course.is_ok_and(|c| !c.reached).then(|| shop.sewing.gap(&shop.x));
+    let places = shop.positions();
+    let seams = compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
+    let weld = Weld::new(compiled.particles.len(), seams);
+    let mut shop = Workshop::new(compiled, surfaces, skin, weld, &places);
+    // Cloth that cuts itself already smooths out better without layers in the way.
+    let apart = crossing::count(compiled, &places) == 0;
+    let pressed = schedule::press(&mut shop, apart);
+    let course = course
+        .and_then(|course| pressed.map(|p| Course { steps: course.steps + p.steps, ..course }));
+    let cuts = crossing::count(compiled, &shop.positions());
+    SewnUp { shop, course, open, cuts }
+}
+
 /// Sews and drapes over given skin, from given first places.
 pub fn dress(
     rungs: &[Compiled],
@@ -164,25 +204,29 @@ pub fn dress(
                         continue;
                     }
                     progress.stage("sew");
-                    let course = schedule::sew(&mut shop, gap.max(1e-5), true, progress);
-                    if course.is_ok_and(|c| !c.reached) {
-                        let (gap, seam) = shop.sewing.gap(&shop.x);
+                    let gap = gap.max(1e-5);
+                    let turns = shop.sewing.has_turns();
+                    let figures = (surfaces, skin);
+                    let mut sewn_up = sew_up(shop, figures, (gap, true), progress);
+                    if turns && !(sewn_up.open.is_none() && sewn_up.cuts == 0) {
+                        // All at once it may go better.
+                        let weld = Weld::new(compiled.particles.len(), std::iter::empty());
+                        let again = Workshop::new(compiled, surfaces, skin, weld, &start);
+                        let other = sew_up(again, figures, (gap, false), progress);
+                        if other.rank() < sewn_up.rank() {
+                            sewn_up = other;
+                        }
+                    }
+                    if let Some((gap, seam)) = sewn_up.open {
                         let name = compiled.seams.get(seam).map_or("", |s| s.name.as_str());
                         reason.get_or_insert(format!(
                             "the seam `{name}` did not close: {:.1} mm are left",
                             gap * 1e3
                         ));
                     }
-                    let places = shop.positions();
-                    let weld = Weld::new(compiled.particles.len(), seams());
-                    shop = Workshop::new(compiled, surfaces, skin, weld, &places);
+                    shop = sewn_up.shop;
                     sewn = true;
-                    // Cloth that cuts itself already smooths out better without layers in the way.
-                    let apart = crossing::count(compiled, &places) == 0;
-                    let pressed = schedule::press(&mut shop, apart);
-                    let course = course.and_then(|course| {
-                        pressed.map(|p| Course { steps: course.steps + p.steps, ..course })
-                    });
+                    let course = sewn_up.course;
                     ("sew", course)
                 }
                 Phase::Close { gap, .. } => {
@@ -196,7 +240,7 @@ pub fn dress(
                     let mut open = compiled.clone();
                     open.seams.append(&mut open.closures);
                     shop = Workshop::new(&open, surfaces, skin, weld, &places);
-                    let course = schedule::sew(&mut shop, gap.max(1e-5), false, progress);
+                    let course = schedule::sew(&mut shop, gap.max(1e-5), false, false, progress);
                     if course.is_ok_and(|c| !c.reached) {
                         let (gap, _) = shop.sewing.gap(&shop.x);
                         reason.get_or_insert(format!(

@@ -31,6 +31,9 @@ const TACKING_STEPS: usize = 200;
 /// would not close otherwise.
 const ROOM: [f64; 2] = [0.05, f64::INFINITY];
 
+/// Gap from which on it must no longer pass, m.
+const NEARLY: f64 = 0.012;
+
 /// Strength at which a seam that does not come nearer is given more room.
 const STALLED: f64 = 10.0;
 
@@ -47,20 +50,20 @@ const WINDOW: f64 = 0.25;
 /// Draws the seams together, without gravity, until no pair is wider apart than `gap`, m. With
 /// `layers` the cloth is kept apart meanwhile.
 ///
-/// As a tailor does, first the body and the sleeves each for themselves, then the sleeves are set
-/// in: drawn all at once, fronts and backs would get caught on the wrong side of a sleeve.
+/// As a tailor does, `in_turn` first the body and the sleeves each for themselves, then the sleeves
+/// are set in: drawn all at once, fronts and backs may get caught on the wrong side of a sleeve.
 ///
 /// # Errors
 /// [`Stuck`] from the step.
 pub fn sew(
     shop: &mut Workshop<'_>,
     gap: f64,
+    in_turn: bool,
     layers: bool,
     progress: &mut dyn Progress,
 ) -> Result<Course, Stuck> {
     let mut course = Course::default();
-    let sleeves = shop.sewing.pairs.iter().any(|s| s.sets_in);
-    if sleeves && shop.sewing.pairs.iter().any(|s| !s.sets_in) {
+    if in_turn && shop.sewing.has_turns() {
         shop.sewing.waiting = true;
         draw_together(shop, (TACKED, TACKING_STEPS), layers, &mut course, progress)?;
         shop.sewing.waiting = false;
@@ -113,7 +116,7 @@ fn draw_together(
             calm: 10.0,
             grip: 0.05,
             sewing: strength,
-            room: ROOM[room],
+            room: if room == 0 && widest < NEARLY { 0.0 } else { ROOM[room] },
             near: 0.008,
             layers,
             aim: Aim { tolerance: 2e-2, most: 200 },

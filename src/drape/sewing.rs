@@ -65,6 +65,11 @@ impl Sewing {
         }
     }
 
+    /// Whether there are sleeves to be set in, and other seams that can be closed before.
+    pub fn has_turns(&self) -> bool {
+        self.pairs.iter().any(|s| s.sets_in) && self.pairs.iter().any(|s| !s.sets_in)
+    }
+
     /// The pairs that are drawn together now.
     pub fn drawn(&self) -> impl Iterator<Item = &Stitch> {
         self.pairs.iter().filter(|s| !(self.waiting && s.sets_in))

@@ -165,6 +165,11 @@ impl<'a> Workshop<'a> {
         }
     }
 
+    /// What it is a cloth of.
+    pub fn compiled(&self) -> &'a Compiled {
+        self.compiled
+    }
+
     /// Places of all particles.
     pub fn positions(&self) -> Vec<Vector3<f64>> {
         self.cloth.weld.knot.iter().map(|&k| self.x[k as usize]).collect()
