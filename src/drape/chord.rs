@@ -64,18 +64,6 @@ impl Chords {
             }
         }
     }
-
-    /// Lifts edges whose middles are deeper than the margin allows.
-    pub fn lift(&self, cloth: &Cloth, x: &mut [Vector3<f64>], v: &mut [Vector3<f64>]) {
-        for (touch, ends) in self.touches.iter().zip(&self.ends) {
-            let Some(way) = touch.out(&middle(x, ends), seat(cloth, ends)) else { continue };
-            for k in ends.map(|k| k as usize) {
-                x[k] += way;
-                let inward = v[k].dot(&touch.normal).min(0.0);
-                v[k] -= touch.normal * inward;
-            }
-        }
-    }
 }
 
 /// All edges of the faces, each once.

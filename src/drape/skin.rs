@@ -250,7 +250,6 @@ impl Contact {
                 v[i] -= touch.normal * inward;
             }
         }
-        self.chords.lift(cloth, x, v);
     }
 }
 
