@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 /// Grids whose cells are longer than this have middles that touch, m: half the breadth of the
 /// hand at its thumb.
-const LONG: f64 = 0.02;
+const LONG: f64 = 0.025;
 
 /// Edges whose middles touch skin.
 #[derive(Clone, Debug, Default)]

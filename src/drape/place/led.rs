@@ -66,7 +66,9 @@ fn lay_against(
         compiled.panels[partner].particles.range().map(|k| positions[k]).collect();
     let (seam_own, seam_goal) = (mean(&own), mean(&goal));
     let away = seam_goal - mean(&beyond);
-    if away.norm() > 1e-9 {
+    // What several hold, a gusset, is turned by them.
+    let one = pairs.iter().all(|[_, other]| joins.owner(*other) == partner);
+    if one && away.norm() > 1e-9 {
         let reach = (middle - seam_own).norm();
         for _ in 0..pairs.len().div_ceil(2) {
             own.push(middle);
