@@ -42,6 +42,8 @@ fn cloth(path: BezPath, cell: f64) -> Garment {
         stitches: Vec::new(),
         nearby: Vec::new(),
         patches: Vec::new(),
+        cords: Vec::new(),
+        ties: Vec::new(),
         bodies: Vec::new(),
         solids: Vec::new(),
         attachments: Vec::new(),

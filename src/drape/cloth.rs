@@ -1,6 +1,7 @@
 //! A cloth as the solver sees it: knots with mass, threads, shearing cells, band triangles, folds.
 
 use super::bending::{self, Fold};
+use super::cord;
 use super::crease::Crease;
 use super::doubled::{self, More};
 use super::gather::Gathers;
@@ -144,6 +145,7 @@ impl Cloth {
                     rest: h * gathers.share(a, b).unwrap_or(1.0),
                     stiffness: 0.5 * modulus * same.len() as f64 + 0.5 * more,
                     warp,
+                    most: None,
                 });
             }
             for t in panel.triangles.range() {
@@ -174,6 +176,9 @@ impl Cloth {
                 });
             }
         }
+        cord::pucker(compiled, &cloth.weld, &mut cloth.springs, &mut cloth.triangles);
+        let cords = cord::springs(compiled, &cloth.weld, &mut cloth.mass);
+        cloth.springs.extend(cords);
         // A particle of no face at all still needs a mass to be solved for.
         let total: f64 = cloth.mass.iter().sum();
         for m in &mut cloth.mass {

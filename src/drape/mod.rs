@@ -4,6 +4,7 @@ pub mod air;
 pub mod bending;
 pub mod chord;
 pub mod cloth;
+pub mod cord;
 pub mod crease;
 pub mod crossing;
 pub mod doubled;
@@ -192,7 +193,15 @@ pub fn dress(
         let closures = || compiled.closures.iter().flat_map(|s| s.pairs.iter().copied());
         let held_together = seams().filter(|_| sewn).chain(closures().filter(|_| shut));
         let weld = Weld::new(compiled.particles.len(), held_together);
-        let mut shop = Workshop::new(compiled, surfaces, skin, weld, &start);
+        let tied: Compiled;
+        let whole = if compiled.ties.is_empty() {
+            compiled
+        } else {
+            tied = cord::tied(compiled);
+            &tied
+        };
+        let now = if shut { whole } else { compiled };
+        let mut shop = Workshop::new(now, surfaces, skin, weld, &start);
         let mut fresh = rung == 0;
         let mut sewn = sewn;
         let phases = if fine { &finest.schedule[..] } else { &finest.schedule[..prefix] };
@@ -230,7 +239,7 @@ pub fn dress(
                     ("sew", course)
                 }
                 Phase::Close { gap, .. } => {
-                    if shut || compiled.closures.is_empty() {
+                    if shut || (compiled.closures.is_empty() && compiled.ties.is_empty()) {
                         continue;
                     }
                     progress.stage("close");
@@ -253,7 +262,7 @@ pub fn dress(
                         compiled.particles.len(),
                         seams().filter(|_| sewn).chain(closures()),
                     );
-                    shop = Workshop::new(compiled, surfaces, skin, weld, &places);
+                    shop = Workshop::new(whole, surfaces, skin, weld, &places);
                     shut = true;
                     ("close", course)
                 }

@@ -1,4 +1,4 @@
-//! Patches: particles held to points of the face below them.
+//! Patches, and folds sewn shut: particles held to points of the face below them.
 //!
 //! A patch lies on its host at the distance that layers keep, so that the stitch and the contact of
 //! the two want the same. A stitch is a spring in every direction between a knot and a point of a
@@ -8,7 +8,7 @@
 use super::cloth::Cloth;
 use super::layers;
 use super::layers::touch::Touch;
-use crate::mesh::compiled::Compiled;
+use crate::mesh::compiled::{Compiled, MeshStitch};
 use nalgebra::Vector3;
 
 type V = Vector3<f64>;
@@ -27,7 +27,7 @@ struct Stitch {
     knots: [u32; 4],
     /// 1, and less the shares of the corners.
     weights: [f64; 4],
-    /// How far in front of the face it lies, m.
+    /// How far in front of the face it lies, m; behind it where negative.
     off: f64,
     /// Length of seam that it stands for, m.
     length: f64,
@@ -40,23 +40,21 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// The patches of a cloth.
+    /// The patches and the shut folds of a cloth.
     pub fn new(compiled: &Compiled, cloth: &Cloth) -> Self {
         let mut stitches = Vec::new();
         for patch in &compiled.patches {
             let Some(panel) = compiled.panels.get(patch.panel) else { continue };
-            for s in &patch.stitches {
-                let knot = |p: u32| cloth.weld.knot[p as usize];
-                let [a, b, c] = s.corners.map(knot);
-                let knots = [knot(s.particle), a, b, c];
-                // What another seam has made part of the face needs no holding.
-                if knots[1..].contains(&knots[0]) || a == b || b == c || c == a {
-                    continue;
-                }
-                let [p, q, r] = s.weights.map(|w| -w);
-                let off = knots.map(|k| layers::apart(cloth, k)).into_iter().fold(1.0, f64::min);
-                stitches.push(Stitch { knots, weights: [1.0, p, q, r], off, length: panel.cell });
-            }
+            let held = patch.stitches.iter();
+            stitches.extend(held.filter_map(|s| Stitch::new(s, cloth, panel.cell)));
+        }
+        for fold in &compiled.shut {
+            let Some(panel) = compiled.panels.get(fold.panel) else { continue };
+            let side = if fold.face_on_face { 1.0 } else { -1.0 };
+            stitches.extend(fold.stitches.iter().filter_map(|s| {
+                let stitch = Stitch::new(s, cloth, panel.cell)?;
+                Some(Stitch { off: side * stitch.off, ..stitch })
+            }));
         }
         Patches { stitches }
     }
@@ -80,6 +78,20 @@ impl Patches {
 }
 
 impl Stitch {
+    /// A particle in front of a point of a face; none where another seam has made it part of the
+    /// face, which needs no holding.
+    fn new(s: &MeshStitch, cloth: &Cloth, length: f64) -> Option<Self> {
+        let knot = |p: u32| cloth.weld.knot[p as usize];
+        let [a, b, c] = s.corners.map(knot);
+        let knots = [knot(s.particle), a, b, c];
+        if knots[1..].contains(&knots[0]) || a == b || b == c || c == a {
+            return None;
+        }
+        let [p, q, r] = s.weights.map(|w| -w);
+        let off = knots.map(|k| layers::apart(cloth, k)).into_iter().fold(1.0, f64::min);
+        Some(Stitch { knots, weights: [1.0, p, q, r], off, length })
+    }
+
     /// The way to the knot from where it is to lie.
     fn way(&self, x: &[V]) -> V {
         let [p, a, b, c] = self.knots.map(|k| x[k as usize]);

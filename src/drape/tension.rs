@@ -26,6 +26,8 @@ pub struct Spring {
     pub stiffness: f64,
     /// Along the warp; else along the weft.
     pub warp: bool,
+    /// The largest force of a cord, N, which takes none in compression.
+    pub most: Option<f64>,
 }
 
 impl Spring {
@@ -37,7 +39,13 @@ impl Spring {
     /// Its energy, J.
     pub fn energy(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
         let stretch = (b - a).norm() - self.rest;
-        0.5 * self.stiffness * stretch * stretch
+        match self.most {
+            Some(_) if stretch < 0.0 => 0.0,
+            Some(most) if stretch * self.stiffness > most => {
+                most * (stretch - 0.5 * most / self.stiffness)
+            }
+            _ => 0.5 * self.stiffness * stretch * stretch,
+        }
     }
 
     /// The force on its first end, N, and the stiffness between that end and itself, N/m.
@@ -49,6 +57,15 @@ impl Spring {
         }
         let n = d / length;
         let stretch = (length * length - self.rest * self.rest) / (length + self.rest);
+        if let Some(most) = self.most {
+            if stretch <= 0.0 {
+                return (Vector3::zeros(), Matrix3::identity() * (SLACK * self.stiffness));
+            }
+            if stretch * self.stiffness > most {
+                // The secant, as of an open seam.
+                return (n * most, Matrix3::identity() * (most / length));
+            }
+        }
         let lateral = (stretch / length).max(SLACK);
         let along = n * n.transpose() * (1.0 - lateral);
         (n * (self.stiffness * stretch), (along + Matrix3::identity() * lateral) * self.stiffness)

@@ -98,7 +98,7 @@ impl<'t> Evaluator<'t> {
             if !making.garment.seams.is_empty() || sewn || near {
                 phases.push(Phase::Sew { gap: GAP, span: None });
             }
-            if making.garment.stitches.iter().any(|stitch| stitch.closure) {
+            if Self::closes(making) {
                 phases.push(Phase::Close { gap: CLOSED, span: None });
             }
             phases.push(Phase::Settle { speed: SPEED, within: WITHIN, span: None });

@@ -56,6 +56,8 @@ impl Making {
                 stitches: Vec::new(),
                 nearby: Vec::new(),
                 patches: Vec::new(),
+                cords: Vec::new(),
+                ties: Vec::new(),
                 bodies: Vec::new(),
                 solids: Vec::new(),
                 attachments: Vec::new(),
@@ -214,7 +216,8 @@ impl<'t> Evaluator<'t> {
             .all(|phrase| phrase.item.is_some_and(|panel| making.drafts.contains_key(&panel)));
         making.broken |= !drawn || !fields.spoiled.is_empty();
         self.places(fields, making);
-        let sewn = self.seams(fields, making);
+        making.broken |= !self.bands_of_garment(fields, making);
+        let sewn = self.seams(fields, making) & self.cords(fields, making);
         self.holds(fields, making);
         self.checks(fields);
         self.requirements(fields);
@@ -295,8 +298,8 @@ impl<'t> Evaluator<'t> {
         let fabric = fabric.unwrap_or_default();
         let mut bands: Vec<(&super::panel::Banded, usize)> = Vec::new();
         for band in &draft.bands {
-            let number = match band.fabric {
-                Some(other) => self.fabric_number(other, band.span, making),
+            let number = match band.cloth.fabric {
+                Some(other) => self.fabric_number(other, band.cloth.span, making),
                 None => Some(fabric),
             };
             making.broken |= number.is_none();

@@ -67,7 +67,7 @@ impl<'t> Evaluator<'t> {
     }
 
     /// The runs of the edges named where something is held.
-    fn held_runs(&mut self, arg: Arg<'t>, making: &Making) -> Option<Vec<PanelRun>> {
+    pub(super) fn held_runs(&mut self, arg: Arg<'t>, making: &Making) -> Option<Vec<PanelRun>> {
         let value = self.eval(arg.expr, arg.scope);
         let edges = match value {
             Value::Poison => return None,

@@ -9,6 +9,7 @@
 mod block;
 pub mod catalogue;
 mod choice;
+mod cord;
 mod declaration;
 mod drape;
 mod expression;

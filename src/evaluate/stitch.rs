@@ -7,6 +7,7 @@ use super::item::ItemId;
 use super::panel::edge::EdgeRef;
 use super::value::Value;
 use crate::diagnostic::Diagnostic;
+use crate::garment::panel::{Band, BandKind, Run};
 use crate::garment::scene::Placement;
 use crate::garment::seam::{Nearby, Stitches};
 use crate::syntax::tree::{Expr, ExprKind};
@@ -67,7 +68,7 @@ impl<'t> Evaluator<'t> {
     }
 
     /// The places that `front(3, 4)` or `front.side.start` names, one for each copy of the piece.
-    fn spots(&mut self, arg: Arg<'t>, making: &Making) -> Option<Vec<Spot>> {
+    pub(super) fn spots(&mut self, arg: Arg<'t>, making: &Making) -> Option<Vec<Spot>> {
         let ExprKind::Call(base, nodes) = &arg.expr.kind else {
             return match self.eval(arg.expr, arg.scope) {
                 Value::Poison => None,
@@ -198,10 +199,12 @@ impl<'t> Evaluator<'t> {
         let lower = self.closed_edge(phrase.value("over")?)?;
         let count = self.whole_number(phrase.value("count")?, 1, MOST)?;
         let inset = match phrase.value("inset") {
-            Some(arg) => self.within_range(arg, Dimension::LENGTH, 0.0, 0.5)?,
-            None if phrase.word.name == "hook" => 0.0,
-            None => INSET,
+            Some(arg) => Some(self.within_range(arg, Dimension::LENGTH, 0.0, 0.5)?),
+            None => None,
         };
+        let usual = if phrase.word.name == "hook" { 0.0 } else { INSET };
+        let [above, below] = [&upper, &lower]
+            .map(|edge| inset.unwrap_or_else(|| on_placket(edge, making).unwrap_or(usual)));
         let length = upper.length().min(lower.length());
         let every = match phrase.value("every") {
             Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-3, 10.0)?,
@@ -226,8 +229,8 @@ impl<'t> Evaluator<'t> {
         let mut pairs = Vec::new();
         for number in 0..count {
             let way = 0.5 * (length - taken) + every * number as f64;
-            let a = spot(&upper, way, inset, making)?;
-            let b = spot(&lower, way, inset, making)?;
+            let a = spot(&upper, way, above, making)?;
+            let b = spot(&lower, way, below, making)?;
             pairs.push([a, b]);
         }
         // What lies over begins farther out.
@@ -269,6 +272,19 @@ impl<'t> Evaluator<'t> {
             }
         }
     }
+}
+
+/// How far inside of an edge the middle of its placket lies, m.
+fn on_placket(edge: &EdgeRef, making: &Making) -> Option<f64> {
+    let found = edge.find().into_iter().next()?;
+    let number = making.numbers.get(&(edge.draft.item, found.piece))?;
+    let runs = edge.runs(&found);
+    let mut bands = making.garment.panels.get(*number)?.bands.iter();
+    let lies = |band: &&Band| {
+        let same = |run: &Run| runs.iter().any(|r| (r.ring, r.piece) == (run.ring, run.piece));
+        band.kind == BandKind::Placket && band.runs.iter().any(same)
+    };
+    bands.find(lies).map(|band| band.width / 2.0)
 }
 
 /// The place inside an edge, `way` along it as sewn and `inset` from it, m.

@@ -33,6 +33,10 @@ pub struct Garment {
     pub nearby: Vec<seam::Nearby>,
     /// Pieces sewn flat on others.
     pub patches: Vec<seam::Patch>,
+    /// What draws edges together.
+    pub cords: Vec<seam::Cord>,
+    /// Cords from place to place.
+    pub ties: Vec<seam::Tie>,
     /// Wearers.
     pub bodies: Vec<scene::BodyRequest>,
     /// Balls, tables and the like.

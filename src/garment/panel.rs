@@ -132,6 +132,18 @@ pub struct Crease {
     /// The angle at which the cloth rests, rad, −π to π: positive where its face is folded on
     /// itself.
     pub angle: f64,
+    /// Where the fold is sewn shut.
+    pub shut: Option<Shut>,
+}
+
+/// A fold sewn shut: the cloth along a line beside the crease is sewn to its mirror image about the
+/// crease. The line begins at `across` from the crease's start and goes by `along`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shut {
+    /// From the start of the crease to that of the line, square to the crease, m.
+    pub across: [f64; 2],
+    /// From the start of the line to its end, m.
+    pub along: [f64; 2],
 }
 
 /// Further cloth sewn down along an edge: a hem turned up, a facing, an interfacing. It is no piece
@@ -140,6 +152,8 @@ pub struct Crease {
 pub struct Band {
     /// Where it is declared.
     pub span: Span,
+    /// What it is.
+    pub kind: BandKind,
     /// The edge.
     pub runs: Vec<Run>,
     /// How far it reaches into the piece, m.
@@ -148,6 +162,20 @@ pub struct Band {
     pub fabric: usize,
     /// Its plies.
     pub plies: u32,
+}
+
+/// What a band of further cloth is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BandKind {
+    /// Turned up and sewn down.
+    Hem,
+    /// Sewn on beneath.
+    Facing,
+    /// Stiffer cloth beneath.
+    Interfacing,
+    /// Doubled cloth on which closures lie.
+    Placket,
 }
 
 /// A mark on the outline.

@@ -143,3 +143,45 @@ pub struct Patch {
     /// The edges that are sewn.
     pub runs: Vec<PanelRun>,
 }
+
+/// What runs along edges and draws them together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cord {
+    /// As written, `drawstring skirt.top`.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// What it is.
+    pub kind: CordKind,
+    /// The runs it goes along.
+    pub runs: Vec<PanelRun>,
+    /// Its length at rest, m.
+    pub length: f64,
+    /// The width of an elastic, m.
+    pub width: f64,
+}
+
+/// What a cord is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CordKind {
+    /// A band that stretches.
+    Elastic,
+    /// A cord in a casing, which hardly does.
+    Drawstring,
+    /// A cord from place to place.
+    Tie,
+}
+
+/// A cord from one place to another, tied when all is closed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tie {
+    /// As written, `front.edge.start to back.edge.end`.
+    pub name: String,
+    /// Where it is declared.
+    pub span: Span,
+    /// What is tied to what: panel and place in its drawing, m. The particle nearest to it is meant.
+    pub pairs: Vec<[(usize, [f64; 2]); 2]>,
+    /// Its length, m.
+    pub length: f64,
+}

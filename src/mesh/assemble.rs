@@ -2,6 +2,7 @@
 
 use super::breakpoint::Walk;
 use super::compiled::{Compiled, MeshAttachment, MeshEdge, MeshPanel, MeshPin, MeshSeam, Stretch};
+use super::cord;
 use super::matching::points_of;
 use super::outline::Grain;
 use super::panel::Cloth;
@@ -109,6 +110,16 @@ pub fn assemble(
             points: along(walks),
             body: held.body,
             landmark: held.landmark.clone(),
+        })
+        .collect();
+    compiled.cords = garment
+        .cords
+        .iter()
+        .zip(&plan.cords)
+        .map(|(cord, walks)| {
+            let lines: Vec<Vec<u32>> =
+                walks.iter().map(|walk| along(std::slice::from_ref(walk))).collect();
+            cord::along(cord, &lines, &compiled.particles)
         })
         .collect();
     compiled.pins = garment

@@ -1,7 +1,7 @@
 //! What the compiler makes: particles, cells, seams, and the picture of the textiles.
 
 use crate::garment::scene::{BodyRequest, Phase, Picture, Placement, Solid};
-use crate::garment::seam::PinTarget;
+use crate::garment::seam::{CordKind, PinTarget};
 use crate::textile::fabric::Fabric;
 use serde::{Deserialize, Serialize};
 
@@ -30,10 +30,16 @@ pub struct Compiled {
     pub nearby: Vec<MeshNearby>,
     /// Panels sewn flat on others.
     pub patches: Vec<MeshPatch>,
+    /// Folds sewn shut.
+    pub shut: Vec<MeshShut>,
     /// Sides of cells and triangles along which the cloth is folded.
     pub creases: Vec<MeshCrease>,
     /// Further cloth along edges.
     pub bands: Vec<MeshBand>,
+    /// Cords along edges.
+    pub cords: Vec<MeshCord>,
+    /// Cords from place to place, tied when all is closed.
+    pub ties: Vec<MeshCord>,
     /// Edges held to a body.
     pub attachments: Vec<MeshAttachment>,
     /// Particles held still.
@@ -154,6 +160,17 @@ pub struct MeshStitch {
     pub weights: [f64; 3],
 }
 
+/// A fold sewn shut: particles of one ply, each sewn to a point of a face of the other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshShut {
+    /// Number of the panel.
+    pub panel: usize,
+    /// Whether the faces of the plies lie on each other, or their backs.
+    pub face_on_face: bool,
+    /// The stitches.
+    pub stitches: Vec<MeshStitch>,
+}
+
 /// A side of two cells or triangles of a panel at which the cloth rests folded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshCrease {
@@ -174,6 +191,21 @@ pub struct MeshBand {
     pub faces: Vec<u32>,
     /// Of each face the share that is covered.
     pub shares: Vec<f64>,
+}
+
+/// A cord as stretches between particles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MeshCord {
+    /// As in the text.
+    pub name: String,
+    /// What it is made of.
+    pub kind: CordKind,
+    /// Its width, m.
+    pub width: f64,
+    /// The particles at the ends of each stretch.
+    pub pairs: Vec<[u32; 2]>,
+    /// The length of each stretch at rest, m.
+    pub rests: Vec<f64>,
 }
 
 /// Particles that follow a body.

@@ -59,10 +59,16 @@ pub fn write(compiled: &Compiled, mut out: impl Write) -> io::Result<()> {
     value(out, &compiled.nearby)?;
     write!(out, ",\n\"patches\":")?;
     value(out, &compiled.patches)?;
+    write!(out, ",\n\"shut\":")?;
+    value(out, &compiled.shut)?;
     write!(out, ",\n\"creases\":")?;
     value(out, &compiled.creases)?;
     write!(out, ",\n\"bands\":")?;
     value(out, &compiled.bands)?;
+    write!(out, ",\n\"cords\":")?;
+    value(out, &compiled.cords)?;
+    write!(out, ",\n\"ties\":")?;
+    value(out, &compiled.ties)?;
     write!(out, ",\n\"attachments\":")?;
     value(out, &compiled.attachments)?;
     write!(out, ",\n\"pins\":")?;

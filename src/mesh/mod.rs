@@ -11,6 +11,7 @@ pub mod atlas;
 pub mod band;
 pub mod breakpoint;
 pub mod compiled;
+pub mod cord;
 pub mod crease;
 pub mod doubled;
 pub mod grading;
@@ -25,6 +26,7 @@ pub mod panel;
 pub mod patch;
 pub mod plan;
 pub mod sharpness;
+pub mod shut;
 pub mod spacing;
 pub mod stitch;
 pub mod triangulation;
@@ -93,6 +95,7 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
     stitch::stitches(garment, &mut compiled)?;
     compiled.bands = doubled::bands(garment, &compiled);
+    compiled.shut = shut::folds(garment, &compiled);
     compiled.creases = crease::creases(garment, &compiled);
     if options.atlas {
         atlas::draw(garment, &mut compiled);

@@ -22,6 +22,8 @@ pub struct Plan {
     pub seams: Vec<Option<Match>>,
     /// Walks of each attachment.
     pub attachments: Vec<Vec<Walk>>,
+    /// Walks of each cord.
+    pub cords: Vec<Vec<Walk>>,
     /// Walks of each pin that holds runs.
     pub pins: Vec<Vec<Walk>>,
     /// Walks of the sewn edges of each patch.
@@ -55,6 +57,8 @@ impl Plan {
             .collect();
         let held = garment.attachments.iter().map(|held| rings.walks(outlines, runs(&held.runs)));
         let attachments = held.collect();
+        let cords = garment.cords.iter().map(|cord| rings.walks(outlines, runs(&cord.runs)));
+        let cords = cords.collect();
         let pins = garment.pins.iter().map(|pin| match &pin.what {
             Pinned::Runs(list) => rings.walks(outlines, runs(list)),
             Pinned::Point { .. } => Vec::new(),
@@ -90,7 +94,7 @@ impl Plan {
             });
             said.collect::<Vec<_>>()
         })?;
-        Ok(Plan { rings, seams, attachments, pins, patches, edges, classes })
+        Ok(Plan { rings, seams, attachments, cords, pins, patches, edges, classes })
     }
 
     /// The cut lines of one panel as points, and their addresses.

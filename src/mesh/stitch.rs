@@ -2,10 +2,11 @@
 
 use super::assemble::nearest;
 use super::compiled::{Compiled, MeshNearby, MeshSeam};
+use super::cord;
 use super::outline::Grain;
 use crate::diagnostic::Diagnostic;
 use crate::garment::Garment;
-use crate::geometry::polygon::distance;
+use crate::geometry::polygon::{Place, distance};
 
 /// A particle this far from the place that is meant is another one, in cells.
 const FAR: f64 = 1.5;
@@ -16,25 +17,40 @@ const FAR: f64 = 1.5;
 /// E0814 where there is no cloth at a point.
 pub fn stitches(garment: &Garment, compiled: &mut Compiled) -> Result<(), Vec<Diagnostic>> {
     let mut wrong = Vec::new();
+    let find = |compiled: &Compiled, pair: &[(usize, Place); 2]| {
+        let found = pair.map(|(panel, at)| {
+            let particle = nearest(garment, compiled, panel, at)?;
+            let cut = compiled.panels.get(panel)?;
+            let there = Grain::new(cut.grain).to_cloth(at);
+            let place = *compiled.particles.get(particle as usize)?;
+            (distance(place, there) <= FAR * cut.cell).then_some(particle)
+        });
+        let [a, b] = found;
+        a.zip(b)
+    };
+    for tie in &garment.ties {
+        let pairs: Option<Vec<[u32; 2]>> =
+            tie.pairs.iter().map(|pair| find(compiled, pair).map(|(a, b)| [a, b])).collect();
+        match pairs {
+            Some(pairs) => compiled.ties.push(cord::tied(tie, pairs)),
+            None => wrong.push(
+                Diagnostic::new("E0814", format!("`{}` ties a hole", tie.name))
+                    .at(tie.span, "there is no cloth at one of its ends"),
+            ),
+        }
+    }
     for stitch in &garment.stitches {
         let mut pairs = Vec::new();
         for pair in &stitch.pairs {
-            let found = pair.map(|(panel, at)| {
-                let particle = nearest(garment, compiled, panel, at)?;
-                let cut = compiled.panels.get(panel)?;
-                let there = Grain::new(cut.grain).to_cloth(at);
-                let place = *compiled.particles.get(particle as usize)?;
-                (distance(place, there) <= FAR * cut.cell).then_some(particle)
-            });
-            match found {
-                [Some(a), Some(b)] => {
+            match find(compiled, pair) {
+                Some((a, b)) => {
                     // On a coarse grid two buttons may come to one particle; one of them does.
                     let used = pairs.iter().any(|pair: &[u32; 2]| pair[0] == a || pair[1] == b);
                     if !(stitch.closure && used) {
                         pairs.push([a, b]);
                     }
                 }
-                _ => {
+                None => {
                     wrong.push(
                         Diagnostic::new("E0814", format!("`{}` sews a hole", stitch.name))
                             .at(stitch.span, "there is no cloth at one of its points")

@@ -166,6 +166,8 @@ pub fn garment(
         stitches: Vec::new(),
         nearby: Vec::new(),
         patches: Vec::new(),
+        cords: Vec::new(),
+        ties: Vec::new(),
         bodies: vec![lady()],
         solids: Vec::new(),
         attachments,

@@ -4,6 +4,7 @@
 
 mod blocks;
 mod errors;
+mod finishing;
 mod garments;
 mod library;
 mod marks;

@@ -133,6 +133,8 @@ fn garment(fabrics: Vec<Fabric>, sari: Option<Sari>) -> (Garment, Compiled) {
         stitches: vec![],
         nearby: vec![],
         patches: vec![],
+        cords: vec![],
+        ties: vec![],
         bodies: vec![],
         solids: vec![],
         attachments: vec![],

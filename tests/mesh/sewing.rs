@@ -113,6 +113,8 @@ pub fn garment(panels: Vec<Panel>, seams: Vec<Seam>) -> Garment {
         stitches: Vec::new(),
         nearby: Vec::new(),
         patches: Vec::new(),
+        cords: Vec::new(),
+        ties: Vec::new(),
         bodies: Vec::new(),
         solids: Vec::new(),
         attachments: Vec::new(),

@@ -3,7 +3,7 @@
 use super::super::Evaluator;
 use super::super::fields::Fields;
 use super::CutPiece;
-use super::band;
+use super::band::{self, Banded};
 use crate::garment::panel::Corner;
 use crate::units::Dimension;
 
@@ -15,6 +15,7 @@ impl<'t> Evaluator<'t> {
     pub(super) fn allowances(
         &mut self,
         fields: &Fields<'t>,
+        bands: &[Banded],
     ) -> Option<Vec<(Option<String>, f64, Corner)>> {
         let mut allowances = Vec::new();
         if let Some(arg) = fields.value("allowance") {
@@ -22,12 +23,10 @@ impl<'t> Evaluator<'t> {
             allowances.push((None, width, Corner::default()));
         }
         // What is turned up for a hem is cut on to the piece; `leave` has the last word.
-        for phrase in fields.all("hem") {
-            let depth = self.quantity(phrase.value("depth")?, Dimension::LENGTH)?;
-            for arg in phrase.values("on") {
-                let name = self.name_of(arg)?.text.clone();
-                allowances.push((Some(name), band::turned(phrase, depth), Corner::Mitre));
-            }
+        for band in bands {
+            let Some(more) = band.cloth.cut_on() else { continue };
+            let edges = band.edges.iter();
+            allowances.extend(edges.map(|name| (Some(name.clone()), more, Corner::Mitre)));
         }
         for phrase in fields.all("leave") {
             let width = self.within_range(phrase.arg(0)?, Dimension::LENGTH, 0.0, WIDEST)?;

@@ -5,10 +5,10 @@ use super::super::fields::{Fields, Phrase};
 use super::mouth::{Beneath, Cut, Form};
 use super::shape::SIZE;
 use super::sheet::{self, Crease, Drawn, Sheet};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::geometry::curve;
-use crate::units::Dimension;
-use kurbo::{BezPath, ParamCurve, Point, Shape};
+use crate::units::{self, Dimension};
+use kurbo::{BezPath, ParamCurve, Point, Shape, Vec2};
 use std::f64::consts::PI;
 
 impl<'t> Evaluator<'t> {
@@ -72,16 +72,44 @@ impl<'t> Evaluator<'t> {
                 return None;
             }
         };
-        Some(Crease { span: phrase.span, from, to, angle: angle? })
+        Some(Crease { span: phrase.span, from, to, angle: angle?, shut: None })
     }
 
-    /// How far from the edge the folds of a pleat or tuck are pressed, m.
-    pub(super) fn pressed(&mut self, phrase: &Phrase<'t>) -> Option<f64> {
-        match phrase.value("pressed") {
+    /// How far from the edge the folds of a pleat or tuck are pressed, and how far they are sewn
+    /// shut, m.
+    pub(super) fn pressed(&mut self, phrase: &Phrase<'t>) -> Option<Pressed> {
+        let pressed = match phrase.value("pressed") {
             Some(arg) => self.within_range(arg, Dimension::LENGTH, 0.0, SIZE),
             None => Some(f64::INFINITY),
-        }
+        };
+        let stitched = match phrase.value("stitched") {
+            Some(arg) => self.within_range(arg, Dimension::LENGTH, 1e-3, SIZE),
+            None => Some(0.0),
+        };
+        Some(Pressed { span: phrase.span, pressed: pressed?, stitched: stitched? })
     }
+
+    /// Tells of a fold that is to be sewn farther than the cloth goes; false then.
+    pub(super) fn stitched_on_cloth(&mut self, creases: &[Crease], said: &Pressed) -> bool {
+        let far = |crease: &&Crease| crease.shut.is_some_and(|[_, along]| along == Vec2::ZERO);
+        let Some(_) = creases.iter().find(far) else { return true };
+        self.tell(
+            Diagnostic::new("E0411", "these folds are sewn farther than the cloth goes")
+                .at(said.span, format!("stitched {}", units::length(said.stitched)))
+                .help("a fold is sewn shut from its edge down, at most to the other side of the piece"),
+        );
+        false
+    }
+}
+
+/// How far from their edge folds are pressed and sewn shut.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pressed {
+    span: Span,
+    /// m.
+    pressed: f64,
+    /// m; none at 0.
+    stitched: f64,
 }
 
 fn point([x, y]: [f64; 2]) -> Point {
@@ -95,8 +123,14 @@ fn outline_of(rings: &[Vec<Drawn>]) -> BezPath {
 }
 
 /// The creases of a mouth on an edge, square to it and right across the piece, or as far as they
-/// are pressed, m.
-pub(super) fn of_mouth(edge: &Drawn, cut: &Cut, pressed: f64, rings: &[Vec<Drawn>]) -> Vec<Crease> {
+/// are pressed. The middle one is sewn shut as far as is said; where the cloth does not go so far, by
+/// a line without length.
+pub(super) fn of_mouth(
+    edge: &Drawn,
+    cut: &Cut,
+    said: &Pressed,
+    rings: &[Vec<Drawn>],
+) -> Vec<Crease> {
     let Form::Fold { beneath } = cut.form else { return Vec::new() };
     let outline = outline_of(rings);
     let (a, b) = cut.mouth;
@@ -113,10 +147,19 @@ pub(super) fn of_mouth(edge: &Drawn, cut: &Cut, pressed: f64, rings: &[Vec<Drawn
     };
     let creases = folds.into_iter().map(|(place, angle)| {
         let from = curve::at(&edge.path, place).0;
-        let reach = across_cloth(&outline, from, from + inward * SIZE).min(pressed);
-        Crease { span: cut.span, from, to: from + inward * reach, angle }
+        let whole = across_cloth(&outline, from, from + inward * SIZE);
+        let shut = (place == middle && said.stitched > 0.0).then(|| {
+            let beside = curve::at(&edge.path, a).0 - from;
+            let across = beside - inward * beside.dot(inward);
+            let fits = said.stitched <= whole + 1e-6;
+            [across, if fits { inward * said.stitched } else { Vec2::ZERO }]
+        });
+        let to = from + inward * whole.min(said.pressed);
+        Crease { span: cut.span, from, to, angle, shut }
     });
-    creases.filter(|crease| crease.from.distance(crease.to) > 1e-4).collect()
+    creases
+        .filter(|crease| crease.from.distance(crease.to) > 1e-4 || crease.shut.is_some())
+        .collect()
 }
 
 /// How far a ray from a point of the outline runs before it meets the outline again, m.

@@ -184,11 +184,12 @@ impl CutPiece {
     ) -> impl Iterator<Item = Band> + 'p {
         let edges = self.edges.iter().filter(|edge| said.edges.contains(&edge.name));
         edges.map(move |edge| Band {
-            span: said.span,
+            span: said.cloth.span,
+            kind: said.cloth.kind,
             runs: edge.runs.iter().map(|(run, _)| *run).collect(),
-            width: said.width,
+            width: said.cloth.width,
             fabric,
-            plies: said.plies,
+            plies: said.cloth.plies,
         })
     }
 

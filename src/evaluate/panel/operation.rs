@@ -9,7 +9,7 @@ use super::outline::Course;
 use super::sheet::{self, Drawn, Edge, Leg, Sheet};
 use super::{Counted, CutEdge, CutJoin, CutPiece, Draft, Instance, InstanceId, Standing};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::garment::panel::{Crease, Piece, Run};
+use crate::garment::panel::{Crease, Piece, Run, Shut};
 use crate::geometry::{crossing, curve};
 use crate::syntax::tree::Name;
 use crate::units::{self, Dimension};
@@ -32,8 +32,8 @@ impl<'t> Evaluator<'t> {
             Some(arg) => self.whole_number(arg, 1, 20).map(|plies| plies as u32),
             None => Some(1),
         };
-        let allowances = self.allowances(&fields);
         let bands = self.bands(&fields);
+        let allowances = self.allowances(&fields, bands.as_deref().unwrap_or_default());
         let layer = match fields.value("layer") {
             None => Some((0, false)),
             Some(arg) if bare(arg.expr).is_some_and(|word| word.text == "inside") => {
@@ -437,6 +437,10 @@ pub(in super::super) fn cut_piece(
             from: [crease.from.x, crease.from.y],
             to: [crease.to.x, crease.to.y],
             angle: crease.angle,
+            shut: crease.shut.map(|[across, along]| Shut {
+                across: [across.x, across.y],
+                along: [along.x, along.y],
+            }),
         })
         .collect();
     let notches = sheet.notch_marks();

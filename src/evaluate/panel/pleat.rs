@@ -72,7 +72,12 @@ impl<'t> Evaluator<'t> {
             );
             for (mouth, form) in mouths {
                 let cut = Cut { name: label.clone(), span: phrase.span, mouth, form };
-                creases.extend(crease::of_mouth(&rings[ring][place], &cut, pressed, rings));
+                let folds = crease::of_mouth(&rings[ring][place], &cut, &pressed, rings);
+                if !self.stitched_on_cloth(&folds, &pressed) {
+                    sound = false;
+                    break;
+                }
+                creases.extend(folds);
                 cuts[ring][place].push(cut);
             }
         }

@@ -57,6 +57,8 @@ pub struct Crease {
     pub to: Point,
     /// The angle at which it rests, rad; positive towards the face.
     pub angle: f64,
+    /// Where it is sewn shut: from its start across to the line that is sewn, and along that.
+    pub shut: Option<[Vec2; 2]>,
 }
 
 /// Rings of pieces with edges; ring 0 is the outline. A piece ends where the next begins.
@@ -146,7 +148,14 @@ impl Sheet {
         let creases = self
             .creases
             .iter()
-            .map(|crease| Crease { from: map * crease.from, to: map * crease.to, ..*crease })
+            .map(|crease| Crease {
+                from: map * crease.from,
+                to: map * crease.to,
+                shut: crease
+                    .shut
+                    .map(|ways| ways.map(|way| map * (crease.from + way) - map * crease.from)),
+                ..*crease
+            })
             .collect();
         let lines = self
             .lines

@@ -1,5 +1,6 @@
 //! Words of a garment: sewing, placing, draping, pictures.
 
+use super::panel::{FACING, HEM, INTERFACING, PLACKET};
 use super::{Form, Kind, Vocabulary, Word, action, item, opening, property};
 
 /// Words of a garment that a block has not: they say how it is worn, shown and sized.
@@ -60,10 +61,29 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "sews a piece flat on another along its edges, but for the open ones; (0, 0) of its drawing comes to the point of the other's, or its first open edge along a mark: `patch pocket on front.left at (14cm, -22cm) open top`",
             ),
             action(
+                "elastic",
+                "in EDGE,… to LENGTH [ width LENGTH ]",
+                "a band that stretches, 1cm wide unless said otherwise, sewn along edges and so long at rest: `elastic in skirt.top to 64cm`",
+            ),
+            action(
+                "drawstring",
+                "through EDGE,… to LENGTH",
+                "a cord through edges that draws them together to a length: `drawstring through skirt.top to 70cm`",
+            ),
+            action(
+                "tie",
+                "PLACE to PLACE [ length LENGTH ]",
+                "ties a place to a place with a cord of that length, closed by `close`; without a length they lie on each other",
+            ),
+            action(
                 "place",
                 "PIECE ( before PLACE | behind PLACE | around PLACE | beside PLACE | at POINT ) [ level PLACE ] [ gap LENGTH ] [ turn ANGLES ]",
                 "where a piece begins; gap 3cm unless said otherwise",
             ),
+            HEM,
+            FACING,
+            INTERFACING,
+            PLACKET,
             action("attach", "EDGE,… to PLACE", "holds edges to the body where they come to lie"),
             action(
                 "pin",

@@ -1,7 +1,29 @@
 //! Words of a panel and of its outline.
 
 use super::garment::REQUIRE;
-use super::{Kind, Vocabulary, action, opening, property};
+use super::{Kind, Vocabulary, Word, action, opening, property};
+
+/// Words for further cloth along edges, which a garment has too, for edges of several panels.
+pub(super) const HEM: Word = action(
+    "hem",
+    "on EDGE,… depth LENGTH [ double ]",
+    "cloth turned up and sewn down: it is cut on to the edge, and the band is as heavy and stiff as two plies, turned twice with `double` as three",
+);
+pub(super) const FACING: Word = action(
+    "facing",
+    "on EDGE,… width LENGTH [ of FABRIC ]",
+    "a band of further cloth beneath edges, of the same fabric unless said otherwise",
+);
+pub(super) const INTERFACING: Word = action(
+    "interfacing",
+    "on EDGE,… width LENGTH of FABRIC",
+    "a band of stiffer cloth beneath edges",
+);
+pub(super) const PLACKET: Word = action(
+    "placket",
+    "on EDGE,… width LENGTH [ of FABRIC ]",
+    "a band of doubled cloth at an opening, cut on and turned in twice, or sewn on where it is of another fabric; buttons and hooks lie in its middle",
+);
 
 pub(super) const TABLES: &[Vocabulary] = &[
     Vocabulary {
@@ -31,13 +53,13 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "pleat",
-                "on EDGE [ from PLACE ] [ to PLACE ] count NUMBER depth LENGTH [ kind knife|box|inverted ] [ facing EDGE ] [ pressed LENGTH ]",
-                "evenly spread folds between two places of an edge; each takes twice its depth and is pressed right across unless said otherwise =knife, facing the edge's end",
+                "on EDGE [ from PLACE ] [ to PLACE ] count NUMBER depth LENGTH [ kind knife|box|inverted ] [ facing EDGE ] [ pressed LENGTH ] [ stitched LENGTH ]",
+                "evenly spread folds between two places of an edge; each takes twice its depth, is pressed right across unless said otherwise, and sewn shut as far as is said =knife, facing the edge's end",
             ),
             action(
                 "tuck",
-                "on EDGE at PLACE depth LENGTH [ count NUMBER ] [ every LENGTH ] [ pressed LENGTH ]",
-                "folds that stand out from the face, sewn together at the edge; each takes twice its depth",
+                "on EDGE at PLACE depth LENGTH [ count NUMBER ] [ every LENGTH ] [ pressed LENGTH ] [ stitched LENGTH ]",
+                "folds that stand out from the face, sewn together at the edge and from there as far as is said; each takes twice its depth",
             ),
             action(
                 "fold",
@@ -72,21 +94,10 @@ pub(super) const TABLES: &[Vocabulary] = &[
                 "LENGTH on EDGE,… [ corner mitre|square|round ]",
                 "the seam allowance beyond some edges, and how it is cut at their ends =mitre",
             ),
-            action(
-                "hem",
-                "on EDGE,… depth LENGTH [ double ]",
-                "cloth turned up and sewn down: it is cut on to the edge, and the band is as heavy and stiff as two plies, turned twice with `double` as three",
-            ),
-            action(
-                "facing",
-                "on EDGE,… width LENGTH [ of FABRIC ]",
-                "a band of further cloth beneath edges, of the same fabric unless said otherwise",
-            ),
-            action(
-                "interfacing",
-                "on EDGE,… width LENGTH of FABRIC",
-                "a band of stiffer cloth beneath edges",
-            ),
+            HEM,
+            FACING,
+            INTERFACING,
+            PLACKET,
             action("unfold", "across EDGE [ as NAME,… ]", "adds the mirror image; the fold goes"),
             action(
                 "pair",
