@@ -2,6 +2,8 @@
 
 use super::project::Project;
 use super::{Input, Stop, graded};
+use crate::mesh;
+use rayon::prelude::*;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -18,14 +20,10 @@ impl Check {
     pub(super) fn run(self) -> Result<(), Stop> {
         let mut project = Project::open(&self.input)?;
         let (garments, mut told) = project.evaluate(&self.input);
-        // Nothing can be wrong with the picture of the textiles.
-        let options = crate::mesh::Options { atlas: false, ..Default::default() };
-        for garment in &garments {
-            let compiled = crate::mesh::compile(garment, &options);
-            told.extend(compiled.err().into_iter().flatten());
-        }
+        let found: Vec<_> = garments.par_iter().map(mesh::examine).collect();
+        told.extend(found.into_iter().filter_map(Result::err).flatten());
         if self.input.fit.is_none() {
-            let sizes = graded::sizes(&mut project, &self.input, &garments, &options);
+            let sizes = graded::sizes(&mut project, &self.input, &garments, mesh::examine);
             told.extend(graded::beyond(&told, &sizes));
         }
         project.tell_all(told)

@@ -39,7 +39,9 @@ impl Compile {
                     garment.name
                 )));
             }
-            let sizes = graded::sizes(&mut project, &self.input, &[garment], &options);
+            let sizes = graded::sizes(&mut project, &self.input, &[garment], |garment| {
+                mesh::compile(garment, &options)
+            });
             project.tell_all(graded::beyond(&[], &sizes))?;
             for size in &sizes {
                 for (_, compiled) in &size.cut {

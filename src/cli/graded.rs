@@ -5,19 +5,20 @@ use super::project::Project;
 use crate::diagnostic::{Diagnostic, Label};
 use crate::evaluate::Options;
 use crate::garment::Garment;
-use crate::mesh::{self, compiled::Compiled};
+use rayon::prelude::*;
 
 /// The garments of a file in one size.
-pub(super) struct Size {
+pub(super) struct Size<T> {
     /// Its name, `EU 38`.
     pub name: String,
-    /// The garments that are cut in this size, with their meshes; those with mistakes are left out.
-    pub cut: Vec<(Garment, Compiled)>,
+    /// The garments that are cut in this size, with what was cut; those with mistakes are left
+    /// out.
+    pub cut: Vec<(Garment, T)>,
     /// What there is to say.
     pub told: Vec<Diagnostic>,
 }
 
-impl Size {
+impl<T> Size<T> {
     /// Its name as that of a folder: `EU-38`.
     pub(super) fn folder(&self) -> String {
         let sign = |c: char| if c.is_alphanumeric() || c == '_' { c } else { '-' };
@@ -25,14 +26,14 @@ impl Size {
     }
 }
 
-/// Drafts and cuts these garments in every size that they name, in the order in which they are
-/// named first.
-pub(super) fn sizes(
+/// Drafts these garments in every size that they name, in the order in which the sizes are named
+/// first, and cuts them with `cut`.
+pub(super) fn sizes<T: Send>(
     project: &mut Project,
     input: &Input,
     garments: &[Garment],
-    options: &mesh::Options,
-) -> Vec<Size> {
+    cut: impl Fn(&Garment) -> Result<T, Vec<Diagnostic>> + Sync,
+) -> Vec<Size<T>> {
     let mut names: Vec<&str> = Vec::new();
     for size in garments.iter().flat_map(|garment| &garment.grade) {
         if !names.contains(&size.as_str()) {
@@ -49,21 +50,22 @@ pub(super) fn sizes(
                 size: Some(size.to_owned()),
             };
             let (drafted, mut told) = project.evaluate_as(&asked);
-            let mut cut = Vec::new();
-            for garment in drafted {
-                match mesh::compile(&garment, options) {
-                    Ok(compiled) => cut.push((garment, compiled)),
+            let results: Vec<_> = drafted.par_iter().map(&cut).collect();
+            let mut sound = Vec::new();
+            for (garment, result) in drafted.into_iter().zip(results) {
+                match result {
+                    Ok(result) => sound.push((garment, result)),
                     Err(wrong) => told.extend(wrong),
                 }
             }
-            Size { name: size.to_owned(), cut, told }
+            Size { name: size.to_owned(), cut: sound, told }
         })
         .collect()
 }
 
 /// What the sizes say beyond what is said already. What several sizes say of one place is one
 /// message, that of the first of them.
-pub(super) fn beyond(said: &[Diagnostic], sizes: &[Size]) -> Vec<Diagnostic> {
+pub(super) fn beyond<T>(said: &[Diagnostic], sizes: &[Size<T>]) -> Vec<Diagnostic> {
     let mut found: Vec<(Diagnostic, Vec<&str>)> = Vec::new();
     let place = |told: &Diagnostic| told.labels.first().map(|label: &Label| label.span);
     for size in sizes {

@@ -130,7 +130,9 @@ impl Test {
             first.map(|codes| codes.split_whitespace().map(str::to_owned).collect());
         let (garments, mut told) = project.evaluate(&input);
         let options = mesh::Options { atlas: false, ..mesh::Options::default() };
-        let sizes = graded::sizes(&mut project, &input, &garments, &options);
+        let sizes = graded::sizes(&mut project, &input, &garments, |garment| {
+            mesh::compile(garment, &options)
+        });
         let mut cuts = Vec::new();
         for garment in &garments {
             match mesh::compile(garment, &options) {

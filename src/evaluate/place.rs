@@ -9,6 +9,7 @@ use super::value::Value;
 use super::words::Kind;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::garment::scene::{Placement, Side};
+use crate::geometry::curve::Measured;
 use crate::syntax::tree::Name;
 use crate::units::Dimension;
 use std::rc::Rc;
@@ -384,11 +385,10 @@ fn walk(draft: &Rc<Draft>, number: usize, edge: &EdgeRef) -> impl Iterator<Item 
     let Some(piece) = draft.pieces.get(number) else { return points.into_iter() };
     for found in edge.find().iter().filter(|found| found.piece == number) {
         for run in edge.runs(found) {
-            points.extend(
-                (0..=64).map(|i| {
-                    piece.point(&run, run.from + (run.to - run.from) * f64::from(i) / 64.0)
-                }),
-            );
+            let Some(path) = piece.path(&run) else { continue };
+            let line = Measured::new(path);
+            let arc = |i: u32| run.from + (run.to - run.from) * f64::from(i) / 64.0;
+            points.extend((0..=64).map(|i| line.at(arc(i))));
         }
     }
     points.into_iter()

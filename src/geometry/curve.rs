@@ -2,7 +2,8 @@
 //! cutting them by arc length. Lengths in metres, directions in radians from +x anticlockwise.
 
 use kurbo::{
-    Affine, BezPath, CubicBez, ParamCurve, ParamCurveArclen, PathEl, PathSeg, Point, Vec2,
+    Affine, BezPath, CubicBez, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathEl, PathSeg,
+    Point, Vec2,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -300,6 +301,85 @@ fn controls(segment: PathSeg) -> Vec<Point> {
     }
 }
 
+/// The parameter of a curve at an arc length from its start, m, where the whole is `length` long:
+/// Newton's method, which the speed of the curve leads there in a few steps, kept within what is
+/// known to lie on either side.
+pub fn share_at(curve: PathSeg, arc: f64, length: f64) -> f64 {
+    if arc <= 0.0 || arc >= length {
+        return if arc <= 0.0 { 0.0 } else { 1.0 };
+    }
+    let guess = arc / length;
+    let speed = |share: f64| match curve {
+        PathSeg::Line(_) => length,
+        PathSeg::Quad(quad) => quad.deriv().eval(share).to_vec2().hypot(),
+        PathSeg::Cubic(cubic) => cubic.deriv().eval(share).to_vec2().hypot(),
+    };
+    let way = |from: f64, to: f64| match curve {
+        PathSeg::Line(_) => length * (to - from),
+        _ if to < from => -curve.subsegment(to..from).arclen(LENGTH_ACCURACY),
+        _ => curve.subsegment(from..to).arclen(LENGTH_ACCURACY),
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    let (mut share, mut passed) = (guess, way(0.0, guess));
+    // Halving alone comes to the end of the numbers in so many steps.
+    for _ in 0..60 {
+        let missing = arc - passed;
+        if missing.abs() <= 1e-2 * LENGTH_ACCURACY {
+            break;
+        }
+        if missing > 0.0 {
+            low = share
+        } else {
+            high = share
+        }
+        let step = share + missing / speed(share);
+        let next = if step > low && step < high { step } else { 0.5 * (low + high) };
+        passed += way(share, next);
+        share = next;
+    }
+    share
+}
+
+/// The point at an arc length of a curve `length` long, and the direction there.
+fn on(segment: PathSeg, arc: f64, length: f64) -> (Point, f64) {
+    let t = share_at(segment, arc, length);
+    let (near, far) = ((t - 1e-4).max(0.0), (t + 1e-4).min(1.0));
+    (segment.eval(t), direction(segment.eval(far) - segment.eval(near)))
+}
+
+/// A path measured once, for looking at many of its places.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Curves with the arc length before each and of each, m.
+    curves: Vec<(PathSeg, f64, f64)>,
+    start: Point,
+}
+
+impl Measured {
+    /// Measures a path.
+    pub fn new(path: &BezPath) -> Self {
+        let mut before = 0.0;
+        let curves = path.segments().map(|curve| {
+            let length = curve.arclen(LENGTH_ACCURACY);
+            before += length;
+            (curve, before - length, length)
+        });
+        Measured { curves: curves.collect(), start: start(path) }
+    }
+
+    /// The point at an arc length from the start.
+    pub fn at(&self, distance: f64) -> Point {
+        let distance = distance.max(0.0);
+        let number = self.curves.partition_point(|(_, before, length)| before + length < distance);
+        match self.curves.get(number).or(self.curves.last()) {
+            Some(&(curve, before, length)) => {
+                curve.eval(share_at(curve, distance - before, length))
+            }
+            None => self.start,
+        }
+    }
+}
+
 /// The point at an arc length from the start, and the direction there.
 pub fn at(path: &BezPath, distance: f64) -> (Point, f64) {
     let mut rest = distance.max(0.0);
@@ -307,17 +387,12 @@ pub fn at(path: &BezPath, distance: f64) -> (Point, f64) {
     for segment in path.segments() {
         let length = segment.arclen(LENGTH_ACCURACY);
         if rest <= length {
-            let t = segment.inv_arclen(rest, LENGTH_ACCURACY).clamp(0.0, 1.0);
-            let (near, far) = ((t - 1e-4).max(0.0), (t + 1e-4).min(1.0));
-            return (segment.eval(t), direction(segment.eval(far) - segment.eval(near)));
+            return on(segment, rest, length);
         }
         rest -= length;
-        last = Some(segment);
+        last = Some((segment, length));
     }
-    match last {
-        Some(segment) => (segment.end(), direction(segment.end() - segment.eval(1.0 - 1e-4))),
-        None => (start(path), 0.0),
-    }
+    last.map_or((start(path), 0.0), |(segment, length)| on(segment, length, length))
 }
 
 /// The part of a path between two arc lengths, `from < to`.
@@ -329,9 +404,8 @@ pub fn part(path: &BezPath, from: f64, to: f64) -> BezPath {
         let (a, b) = ((from - passed).max(0.0), (to - passed).min(length));
         // Crumbs at the joints of segments are left out.
         if b - a > 1e-10 {
-            let t0 = if a <= 0.0 { 0.0 } else { segment.inv_arclen(a, LENGTH_ACCURACY) };
-            let t1 = if b >= length { 1.0 } else { segment.inv_arclen(b, LENGTH_ACCURACY) };
-            let cut = segment.subsegment(t0.clamp(0.0, 1.0)..t1.clamp(0.0, 1.0));
+            let cut =
+                segment.subsegment(share_at(segment, a, length)..share_at(segment, b, length));
             if out.elements().is_empty() {
                 out.move_to(cut.start());
             }

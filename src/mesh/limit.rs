@@ -1,6 +1,5 @@
 //! What cannot be cut: panels without an area, too large or too small for their grid.
 
-use super::DEFAULT_CELL;
 use super::outline::Outline;
 use crate::diagnostic::Diagnostic;
 use crate::garment::Garment;
@@ -69,35 +68,17 @@ pub fn check(garment: &Garment, outlines: &[Vec<Outline>], cell: &[f64]) -> Vec<
     found
 }
 
-/// Particles of a garment, more or less, with cells as it asks for them.
-pub fn estimate(garment: &Garment) -> f64 {
-    let of_panel = |panel: &Panel| {
-        let cell = panel.cell.unwrap_or(DEFAULT_CELL);
-        panel.loops.iter().map(area).sum::<f64>() / (cell * cell)
-    };
-    garment.panels.iter().map(of_panel).sum()
-}
-
 /// A cell of which a panel of this area holds about two hundred, m.
 fn finer(area: f64) -> f64 {
     (area / 200.0).sqrt()
 }
 
-/// Width and height of the box of a panel along weft and warp, from points close enough to tell
-/// its size, m.
+/// Width and height of the box of a panel along weft and warp, m.
 fn extent(panel: &Panel, loops: &[Outline]) -> [f64; 2] {
-    let Some(outline) = loops.first().filter(|_| !panel.loops.is_empty()) else { return [0.0; 2] };
-    let steps = 64 * outline.pieces.len().max(1);
-    let corners = outline.pieces.iter().copied();
-    let along = (0..steps).map(|k| outline.length * k as f64 / steps as f64);
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for place in corners.chain(along).filter_map(|arc| outline.at(arc)) {
-        for axis in 0..2 {
-            low[axis] = low[axis].min(place[axis]);
-            high[axis] = high[axis].max(place[axis]);
-        }
+    match loops.first().filter(|_| !panel.loops.is_empty()) {
+        Some(outline) => outline.extent(),
+        None => [0.0; 2],
     }
-    [high[0] - low[0], high[1] - low[1]].map(|x: f64| x.max(0.0))
 }
 
 /// The side of a cell, near `cell`, with which a rectangular panel comes out as whole cells

@@ -75,25 +75,11 @@ impl Default for Options {
 /// E0811 too many particles, E0812 a panel smaller than its grid, E0813 an outline without an
 /// area or nearer to itself than its points, E0814 seams that cannot be matched.
 pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Diagnostic>> {
-    let outlines: Vec<Vec<Outline>> = garment.panels.par_iter().map(outlines).collect();
-    let cells: Vec<f64> = garment
-        .panels
-        .iter()
-        .zip(&outlines)
-        .map(|(panel, loops)| {
-            let asked = options.cell.or(panel.cell).unwrap_or(DEFAULT_CELL) * options.coarsen;
-            let asked = if asked.is_finite() { asked.max(FINEST_CELL) } else { DEFAULT_CELL };
-            limit::fitting_cell(panel, loops, asked)
-        })
-        .collect();
-    let found = limit::check(garment, &outlines, &cells);
-    if !found.is_empty() {
-        return Err(found);
-    }
-    let plan = Plan::new(garment, &outlines, &cells)?;
-    let (spacing, cloths) = cut(&plan, garment, &outlines, &cells)?;
-    let mut compiled = assemble::assemble(garment, &plan, &spacing, &cells, cloths);
-    stitch::stitches(garment, &mut compiled)?;
+    let mut laid = Laid::new(garment, options)?;
+    let cloths = cut(&mut laid, garment)?;
+    let Laid { cells, plan, spacing, .. } = &laid;
+    let mut compiled = assemble::assemble(garment, plan, spacing, cells, cloths);
+    stitch::stitches(garment, &mut compiled);
     compiled.bands = doubled::bands(garment, &compiled);
     compiled.shut = shut::folds(garment, &compiled);
     compiled.creases = crease::creases(garment, &compiled);
@@ -103,42 +89,90 @@ pub fn compile(garment: &Garment, options: &Options) -> Result<Compiled, Vec<Dia
     Ok(compiled)
 }
 
-/// Chooses the steps and cuts all panels, with shorter steps where the cloth asks for them.
-fn cut(
-    plan: &Plan,
-    garment: &Garment,
-    outlines: &[Vec<Outline>],
-    cells: &[f64],
-) -> Result<(Spacing, Vec<Cloth>), Vec<Diagnostic>> {
-    let mut spacing = Spacing::new(&plan.rings, &plan.classes, outlines, cells);
+/// Looks for what is wrong with a garment when it is cut, without cutting it: what [`compile`]
+/// refuses shows in the points along the cut lines. Only where these come too near to each other
+/// is the garment cut, to see whether shorter steps keep them apart.
+///
+/// # Errors
+/// Those of [`compile`].
+pub fn examine(garment: &Garment) -> Result<(), Vec<Diagnostic>> {
+    let options = Options { atlas: false, ..Options::default() };
+    let laid = Laid::new(garment, &options)?;
+    let crossing = |lines: &Lines| !spacing::faults(&lines.0).crossing.is_empty();
+    if laid.lines.par_iter().any(crossing) { compile(garment, &options).map(drop) } else { Ok(()) }
+}
+
+/// The points along the cut lines of a panel, ring by ring, and their addresses.
+type Lines = (Vec<Vec<Place>>, Vec<Address>);
+
+/// A garment before it is cut: its cut lines measured, and the points chosen along them.
+struct Laid {
+    /// By panel and loop.
+    outlines: Vec<Vec<Outline>>,
+    /// The side of a grid cell of each panel, m.
+    cells: Vec<f64>,
+    plan: Plan,
+    spacing: Spacing,
+    /// By panel.
+    lines: Vec<Lines>,
+}
+
+impl Laid {
+    fn new(garment: &Garment, options: &Options) -> Result<Laid, Vec<Diagnostic>> {
+        let outlines: Vec<Vec<Outline>> = garment.panels.par_iter().map(outlines).collect();
+        let cells: Vec<f64> = garment
+            .panels
+            .iter()
+            .zip(&outlines)
+            .map(|(panel, loops)| {
+                let asked = options.cell.or(panel.cell).unwrap_or(DEFAULT_CELL) * options.coarsen;
+                let asked = if asked.is_finite() { asked.max(FINEST_CELL) } else { DEFAULT_CELL };
+                limit::fitting_cell(panel, loops, asked)
+            })
+            .collect();
+        let found = limit::check(garment, &outlines, &cells);
+        if !found.is_empty() {
+            return Err(found);
+        }
+        let plan = Plan::new(garment, &outlines, &cells)?;
+        let spacing = Spacing::new(&plan.rings, &plan.classes, &outlines, &cells);
+        let mut laid = Laid { outlines, cells, plan, spacing, lines: Vec::new() };
+        laid.lines = laid.drawn();
+        let found = stitch::holes(garment, &laid.lines, &laid.cells);
+        if found.is_empty() { Ok(laid) } else { Err(found) }
+    }
+
+    /// The points along all cut lines with the steps as they are.
+    fn drawn(&self) -> Vec<Lines> {
+        let panels = self.outlines.par_iter().enumerate();
+        panels.map(|(panel, loops)| self.plan.lines(panel, loops, &self.spacing)).collect()
+    }
+}
+
+/// Cuts all panels, with shorter steps where the cloth asks for them.
+fn cut(laid: &mut Laid, garment: &Garment) -> Result<Vec<Cloth>, Vec<Diagnostic>> {
     let mut cloths: Vec<Option<Cloth>> = vec![None; garment.panels.len()];
-    let mut lines: Vec<(Vec<Vec<Place>>, Vec<Address>)> = Vec::new();
+    // Panels whose lines stay as they were keep their cloth.
+    let mut same = vec![false; garment.panels.len()];
     let mut last = false;
     for round in 1.. {
-        let drawn: Vec<_> = outlines
-            .par_iter()
-            .enumerate()
-            .map(|(panel, loops)| plan.lines(panel, loops, &spacing))
-            .collect();
-        // Panels whose lines stay as they were keep their cloth.
-        let same = |panel: usize| lines.get(panel).is_some_and(|old| *old == drawn[panel]);
-        let results: Vec<(Option<Cloth>, Vec<(usize, f64)>)> = (0..drawn.len())
+        let (lines, cells) = (&laid.lines, &laid.cells);
+        let results: Vec<(Option<Cloth>, Vec<(usize, f64)>)> = (0..lines.len())
             .into_par_iter()
             .map(|panel| match &cloths[panel] {
-                Some(cloth) if same(panel) => (Some(cloth.clone()), Vec::new()),
-                _ => try_cut(&garment.panels[panel], &drawn[panel].0, cells[panel], last),
+                Some(cloth) if same[panel] => (Some(cloth.clone()), Vec::new()),
+                _ => try_cut(&garment.panels[panel], &lines[panel].0, cells[panel], last),
             })
             .collect();
         let mut shorter: Vec<(usize, f64)> = Vec::new();
         for (panel, (cloth, faults)) in results.into_iter().enumerate() {
             cloths[panel] = cloth;
-            let addresses = &drawn[panel].1;
+            let addresses = &lines[panel].1;
             let asked = faults.into_iter().filter_map(|(point, factor)| {
-                addresses.get(point).map(|&address| (plan.class(address), factor))
+                addresses.get(point).map(|&address| (laid.plan.class(address), factor))
             });
             shorter.extend(asked);
         }
-        lines = drawn;
         if shorter.is_empty() || last {
             break;
         }
@@ -146,9 +180,12 @@ fn cut(
         shorter.dedup_by_key(|asked| asked.0);
         let mut changed = false;
         for (class, factor) in shorter {
-            changed |= spacing.refine(class, factor);
+            changed |= laid.spacing.refine(class, factor);
         }
         last = !changed || round == ROUNDS;
+        let drawn = laid.drawn();
+        same = drawn.iter().zip(&laid.lines).map(|(new, old)| new == old).collect();
+        laid.lines = drawn;
     }
     let missing = garment.panels.iter().zip(&cloths).filter(|(_, cloth)| cloth.is_none());
     let said: Vec<Diagnostic> = missing
@@ -159,7 +196,7 @@ fn cut(
                 .help("keep lines of one panel apart, or use a finer `grid`")
         })
         .collect();
-    if said.is_empty() { Ok((spacing, cloths.into_iter().flatten().collect())) } else { Err(said) }
+    if said.is_empty() { Ok(cloths.into_iter().flatten().collect()) } else { Err(said) }
 }
 
 /// Cuts a panel, or tells which steps of its lines, by the point where they begin, should be

@@ -1,8 +1,9 @@
 //! The cut lines of a panel measured by arc length, in the panel's (u, v) plane.
 
 use crate::garment::panel::{Loop, Panel};
+use crate::geometry::curve::share_at;
 use crate::geometry::polygon::{Place, turn};
-use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg};
+use kurbo::{ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Shape};
 
 /// Arc lengths are measured to this, m.
 const ACCURACY: f64 = 1e-9;
@@ -113,10 +114,17 @@ impl Outline {
             _ if along <= 0.0 => 0.0,
             _ if along >= span.length => 1.0,
             PathSeg::Line(_) => along / span.length,
-            curve => curve.inv_arclen(along, ACCURACY),
+            curve => share_at(curve, along, span.length),
         };
         let point = span.curve.eval(share);
         Some([point.x, point.y])
+    }
+
+    /// Width and height of the box around the loop along weft and warp, m.
+    pub fn extent(&self) -> [f64; 2] {
+        let boxes = self.spans.iter().map(|span| Shape::bounding_box(&span.curve));
+        let around = boxes.reduce(|all, more| all.union(more)).unwrap_or_default();
+        [around.width(), around.height()]
     }
 
     /// How far the line turns between two arc lengths, rad, left and right added up. Corners

@@ -3,6 +3,8 @@
 
 use darzi::diagnostic::{Diagnostic, FileId, Texts, json, render};
 use darzi::evaluate::{Options, evaluate};
+use darzi::garment::Garment;
+use darzi::garment::panel::Panel;
 use darzi::mesh::{self, limit};
 use darzi::syntax::format::format;
 use darzi::syntax::parse;
@@ -54,11 +56,20 @@ pub fn cut(text: &str) {
     let (garments, told) = evaluate(&mut world, root, &Options::default());
     shown(&told, &world);
     for garment in &garments {
-        let coarsen = (limit::estimate(garment) / PARTICLES).sqrt().max(1.0);
+        let coarsen = (particles(garment) / PARTICLES).sqrt().max(1.0);
         let options = mesh::Options { coarsen, atlas: false, ..mesh::Options::default() };
         if let Err(told) = mesh::compile(garment, &options) {
             assert!(told.iter().any(Diagnostic::is_error));
             shown(&told, &world);
         }
     }
+}
+
+/// Particles of a garment, more or less, with cells as it asks for them.
+fn particles(garment: &Garment) -> f64 {
+    let of_panel = |panel: &Panel| {
+        let cell = panel.cell.unwrap_or(mesh::DEFAULT_CELL);
+        panel.loops.iter().map(limit::area).sum::<f64>() / (cell * cell)
+    };
+    garment.panels.iter().map(of_panel).sum()
 }

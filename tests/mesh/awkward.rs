@@ -3,12 +3,16 @@
 use crate::sewing::{cases, circle, curve, garment, line, panel, polygon};
 use darzi::garment::panel::{Loop, Panel};
 use darzi::mesh::validate::validate;
-use darzi::mesh::{Options, compile};
+use darzi::mesh::{Options, compile, examine};
 use proptest::prelude::*;
 
-/// Compiles and, if that succeeds, checks; gives the number of needlessly sharp triangles.
+/// Compiles and, if that succeeds, checks; gives the number of needlessly sharp triangles. What
+/// compiling refuses is also found without cutting.
 fn survives(panel: Panel) -> Result<usize, TestCaseError> {
-    match compile(&garment(vec![panel], Vec::new()), &Options::default()) {
+    let garment = garment(vec![panel], Vec::new());
+    let cut = compile(&garment, &Options::default());
+    prop_assert_eq!(examine(&garment).err(), cut.as_ref().err().cloned());
+    match cut {
         Err(said) => {
             prop_assert!(said.iter().all(|one| one.code.starts_with('E')), "{said:?}");
             Ok(0)
