@@ -1,5 +1,5 @@
-//! Middles of long edges against skin: on a coarse grid a thumb or a heel is thinner than a cell and
-//! would slip through between knots, never to come back when the grid becomes finer.
+//! Middles of the long edges of sleeves against skin: on a coarse grid a thumb is thinner than a cell
+//! and would slip through between knots, never to come back when the grid becomes finer.
 
 use super::cloth::Cloth;
 use super::skin::{Contact, GIVE, Push, Skin, Touch};
@@ -18,12 +18,13 @@ pub struct Chords {
 }
 
 impl Chords {
-    /// The edges of a coarse cloth; none of a finer one.
-    pub fn new(cloth: &Cloth, x: &[Vector3<f64>]) -> Self {
+    /// The edges of a coarse cloth whose knots are both on an arm; none of a finer cloth.
+    pub fn new(cloth: &Cloth, x: &[Vector3<f64>], on_arm: &[bool]) -> Self {
         if cloth.cell < LONG {
             return Chords::default();
         }
-        let ends = edges(cloth);
+        let mut ends = edges(cloth);
+        ends.retain(|ends| ends.iter().all(|k| on_arm[*k as usize]));
         let touches = ends.iter().map(|e| Touch::new(middle(x, e))).collect();
         Chords { ends, touches }
     }

@@ -98,7 +98,7 @@ impl Stitch {
 }
 
 /// Which particles belong to panels placed on an arm.
-fn on_arms(compiled: &Compiled) -> Vec<bool> {
+pub fn on_arms(compiled: &Compiled) -> Vec<bool> {
     let mut on_arm = vec![false; compiled.particles.len()];
     for panel in &compiled.panels {
         if let Placement::Wrapped { landmark, .. } = &panel.placement {

@@ -117,11 +117,11 @@ pub struct Contact {
 pub type Push = (Vector3<f64>, Matrix3<f64>);
 
 impl Contact {
-    /// Looks for skin near all knots; with `chords` the middles of long edges touch too.
-    pub fn new(cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>], chords: bool) -> Self {
+    /// Looks for skin near all knots; of those that are `on_arm` the middles of long edges touch too.
+    pub fn new(cloth: &Cloth, skin: &dyn Skin, x: &[Vector3<f64>], on_arm: &[bool]) -> Self {
         let touches = x.iter().map(|x| Touch::new(*x)).collect();
         let any = skin.nearest(&Vector3::zeros()).is_some();
-        let chords = if any && chords { Chords::new(cloth, x) } else { Chords::default() };
+        let chords = if any { Chords::new(cloth, x, on_arm) } else { Chords::default() };
         let mut contact = Contact { touches, chords, any };
         contact.look(cloth, skin, x);
         contact

@@ -13,7 +13,7 @@ use super::layers::Layers;
 use super::layers::touch::Touches;
 use super::matrix::add_scalar;
 use super::patch::Patches;
-use super::sewing::Sewing;
+use super::sewing::{self, Sewing};
 use super::skin::{self, Contact, Push, Skin};
 use super::system::{Aim, System};
 use super::weld::Weld;
@@ -145,8 +145,14 @@ impl<'a> Workshop<'a> {
         let system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
         let mut v = vec![Vector3::zeros(); x.len()];
+        let mut on_arm = vec![false; x.len()];
         // Cloth that is being sewn would be caught by its edges on its way past the body.
-        let mut contact = Contact::new(&cloth, skin, &x, sewing.pairs.is_empty());
+        if sewing.pairs.is_empty() {
+            for (particle, is) in sewing::on_arms(compiled).into_iter().enumerate() {
+                on_arm[cloth.weld.knot[particle] as usize] |= is;
+            }
+        }
+        let mut contact = Contact::new(&cloth, skin, &x, &on_arm);
         contact.lift(&cloth, &mut x, &mut v);
         Workshop {
             compiled,
