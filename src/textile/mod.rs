@@ -4,6 +4,8 @@
 //! the chart (the first pick, the first knitted row) and column 0 its left column.
 
 pub mod clo;
+pub mod draft;
+pub mod drawdown;
 pub mod fabric;
 pub mod fast;
 pub mod kes;
@@ -11,6 +13,7 @@ pub mod knit;
 pub mod motif;
 pub mod origin;
 pub mod weave;
+pub mod wif;
 pub mod yarn;
 
 use serde::{Deserialize, Serialize};
