@@ -20,6 +20,7 @@ mod output;
 mod project;
 mod render;
 mod test;
+mod weave;
 
 use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -58,6 +59,8 @@ enum Command {
     Render(render::Render),
     /// Fabrics as a laboratory sees them: measures, units, tests
     Fabric(fabric::Fabric),
+    /// Drafts of weavers: .wif files and the weaves of a text, checked, drawn, written
+    Weave(weave::Weave),
     /// Write a commented starter file
     New(new::New),
     /// Say what the code of a message means
@@ -179,6 +182,7 @@ pub fn main() -> ExitCode {
         Command::Drape(it) => it.run(),
         Command::Render(it) => it.run(),
         Command::Fabric(it) => it.run(),
+        Command::Weave(it) => it.run(),
         Command::New(it) => it.run(),
         Command::Explain(it) => it.run(),
         Command::Lsp(it) => it.run(),

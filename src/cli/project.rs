@@ -29,6 +29,11 @@ impl Project {
                 path.display()
             )));
         }
+        Project::named(path, format)
+    }
+
+    /// Opens a file of any name.
+    pub(super) fn named(path: &Path, format: MessageFormat) -> Result<Self, Stop> {
         // A file below the current folder is named as the caller named it, and may use files
         // beside its own folder; any other file has its own folder as its project.
         let below = path.is_relative()

@@ -83,6 +83,11 @@ pub const CODES: &[Code] = &[
     code("E0604", "no such satin"),
     code("E0605", "a property of a fabric given twice"),
     code("E0606", "a thread or shaft number that does not exist"),
+    code("E0621", "a part of a weaving file that is missing"),
+    code("E0622", "a value of a weaving file that cannot be read"),
+    code("E0623", "a treadle or colour that a weaving file does not have"),
+    code("E0624", "a draft that is too large"),
+    code("E0625", "a text that is no weaving file"),
     code("E0701", "a layout of a sari that does not exist"),
     code("E0702", "bands that do not fill their part"),
     code("E0703", "not enough cloth for this way of wearing"),
@@ -110,6 +115,7 @@ pub const CODES: &[Code] = &[
     code("W0603", "a cloth that falls into layers"),
     code("W0604", "threads closer than they are thick"),
     code("W0605", "a motif without figure"),
+    code("W0621", "a weaving file that was mended"),
     code("W0703", "much more cloth than this way of wearing needs"),
 ];
 

@@ -1,11 +1,13 @@
-//! The fabrics that a file may name: its own, those of the files it uses, the library's.
+//! The fabrics and weaves that a file may name: its own, those of the files it uses, the
+//! library's.
 
 use super::item::{ItemId, Made};
 use super::words::Kind;
 use super::{Evaluator, Options, work};
-use crate::diagnostic::{Diagnostic, FileId};
-use crate::textile::fabric::Fabric;
+use crate::diagnostic::{Diagnostic, FileId, Span};
+use crate::textile::fabric::{Fabric, Structure};
 use crate::textile::origin::Origins;
+use crate::textile::weave::Weave;
 use crate::world::World;
 
 /// A fabric of the catalogue.
@@ -31,7 +33,73 @@ pub fn fabrics(
     work(world, root, options, |evaluator| evaluator.catalogue())
 }
 
+/// A weave of the catalogue, or a woven fabric.
+#[derive(Clone, Debug)]
+pub struct Woven {
+    /// Its name.
+    pub name: String,
+    /// The file in which it stands, or `std::weave`.
+    pub home: String,
+    /// Where its name stands.
+    pub at: Span,
+    /// Whether it stands in the file itself.
+    pub own: bool,
+    /// The weave.
+    pub weave: Weave,
+    /// The structure of a fabric, with its threads.
+    pub structure: Option<Structure>,
+}
+
+/// All sound weaves and woven fabrics that `root` may name: its own first, then those of other
+/// files, then the library's; and what is wrong with the others.
+pub fn woven(
+    world: &mut dyn World,
+    root: FileId,
+    options: &Options,
+) -> (Vec<Woven>, Vec<Diagnostic>) {
+    work(world, root, options, |evaluator| evaluator.woven())
+}
+
 impl Evaluator<'_> {
+    fn woven(&mut self) -> Vec<Woven> {
+        self.open_files();
+        let mut ranked: Vec<(u8, Woven)> = Vec::new();
+        for number in 0..self.items.len() {
+            let id = ItemId(number);
+            let (kind, at, name) =
+                (self.item(id).kind, self.item(id).span, self.item(id).name.clone());
+            if !matches!(kind, Kind::Weave | Kind::Fabric) {
+                continue;
+            }
+            let (weave, structure) = match self.make(id, at) {
+                Some(Made::Weave(weave)) => ((*weave).clone(), None),
+                Some(Made::Fabric(fabric, _)) => match &fabric.structure {
+                    Structure::Woven { weave, .. } => {
+                        (weave.clone(), Some(fabric.structure.clone()))
+                    }
+                    Structure::Knitted { .. } => continue,
+                },
+                _ => continue,
+            };
+            let Some((rank, home)) = self.home(at.file) else { continue };
+            ranked.push((rank, Woven { name, home, at, own: rank == 0, weave, structure }));
+        }
+        ranked.sort_by_key(|(rank, _)| *rank);
+        ranked.into_iter().map(|(_, entry)| entry).collect()
+    }
+
+    /// How near a file is to the one in hand, and its path: 0 itself, 1 another file of the
+    /// project, 2 the library.
+    fn home(&self, id: FileId) -> Option<(u8, String)> {
+        let file = self.files.iter().find(|file| file.id == id)?;
+        let rank = match () {
+            () if file.id == self.root => 0,
+            () if file.path.starts_with("std::") => 2,
+            () => 1,
+        };
+        Some((rank, file.path.clone()))
+    }
+
     fn catalogue(&mut self) -> Vec<Entry> {
         self.open_files();
         let mut ranked: Vec<(u8, Entry)> = Vec::new();
@@ -43,23 +111,14 @@ impl Evaluator<'_> {
             }
             let Some(Made::Fabric(fabric, origins)) = self.make(id, span) else { continue };
             let Some(file) = self.files.iter().find(|file| file.id == span.file) else { continue };
-            let rank = match () {
-                () if file.id == self.root => 0,
-                () if file.path.starts_with("std::") => 2,
-                () => 1,
-            };
+            let Some((rank, home)) = self.home(span.file) else { continue };
             let statement = file
                 .tree
                 .statements
                 .iter()
                 .find(|it| it.span.start <= span.start && span.end <= it.span.end);
             let doc = statement.map_or(String::new(), |it| it.doc.trim().to_owned());
-            let entry = Entry {
-                home: file.path.clone(),
-                doc,
-                fabric: (*fabric).clone(),
-                origins: (*origins).clone(),
-            };
+            let entry = Entry { home, doc, fabric: (*fabric).clone(), origins: (*origins).clone() };
             ranked.push((rank, entry));
         }
         ranked.sort_by_key(|(rank, _)| *rank);

@@ -1,5 +1,6 @@
 //! Files: a text with everything it uses, read once before anything is worked out.
 
+use super::drafts::{Drafts, drafts};
 use super::scope::{ScopeId, What};
 use super::words::Kind;
 use super::{Evaluator, block::Merged, record};
@@ -43,6 +44,9 @@ pub(super) struct Loaded {
     pub tree: Arc<File>,
     /// What its `use` lines point to.
     uses: Vec<Option<FileId>>,
+    /// The weaving files that it names, by the places of their paths; those that cannot be read
+    /// are told and left out.
+    pub drafts: Drafts,
 }
 
 /// A parameter set from outside.
@@ -168,7 +172,8 @@ pub(super) fn load(
                 }
             }
         }
-        files.push(Loaded { id, path, text, tree, uses });
+        let drafts = drafts(world, &path, &tree, &mut told);
+        files.push(Loaded { id, path, text, tree, uses, drafts });
     }
     tell_rings(&files, &mut told);
     let asked = set.iter().filter_map(|pair| ask(world, pair, &mut files, &mut told)).collect();
@@ -207,6 +212,7 @@ fn ask(
         text,
         tree: Arc::default(),
         uses: Vec::new(),
+        drafts: Drafts::new(),
     });
     asked
 }

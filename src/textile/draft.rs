@@ -120,7 +120,18 @@ impl Draft {
         }
     }
 
-    /// The shafts that a pick moves, counted from 0; rising, each once.
+    /// Ends and picks up to the last that does anything. Programs often declare a loom's full
+    /// width and thread a part of it.
+    pub fn worked(&self) -> (usize, usize) {
+        let last = |lists: &[Vec<u32>]| lists.iter().rposition(|list| !list.is_empty());
+        let moved = match &self.shedding {
+            Shedding::Treadled { treadling, .. } => last(treadling),
+            Shedding::Lifted { plan } => last(plan),
+        };
+        [last(&self.threading), moved].map(|last| last.map_or(0, |last| last + 1)).into()
+    }
+
+    /// The shafts that a pick moves, the pick counted from 0; rising, each once.
     pub fn moved(&self, pick: usize) -> Vec<u32> {
         match &self.shedding {
             Shedding::Lifted { plan } => plan.get(pick).cloned().unwrap_or_default(),
@@ -291,10 +302,7 @@ mod tests {
         let tangled = Draft {
             rising: true,
             threading: vec![all.clone(); 100],
-            shedding: Shedding::Treadled {
-                tieup: vec![all],
-                treadling: one(&[1; 100_000]),
-            },
+            shedding: Shedding::Treadled { tieup: vec![all], treadling: one(&[1; 100_000]) },
             ..Draft::default()
         };
         assert_eq!(tangled.drawdown(), Err(TooLarge));

@@ -119,6 +119,23 @@ impl Drawdown {
         turned
     }
 
+    /// The first ends and picks alone.
+    #[must_use]
+    pub fn cropped(&self, ends: usize, picks: usize) -> Drawdown {
+        let mut part = Drawdown::new(ends.min(self.ends), picks.min(self.picks));
+        let beyond = part.words * 64 - part.ends;
+        for pick in 0..part.picks {
+            let row = part.words * pick..part.words * (pick + 1);
+            if let Some(own) = part.rows.get_mut(row) {
+                own.copy_from_slice(&self.row(pick)[..part.words]);
+                if let (Some(last), 1..) = (own.last_mut(), beyond) {
+                    *last &= u64::MAX >> beyond;
+                }
+            }
+        }
+        part
+    }
+
     /// Crossings with the warp on top.
     pub fn warp_up(&self) -> u64 {
         self.rows.iter().map(|word| u64::from(word.count_ones())).sum()
@@ -218,9 +235,8 @@ impl Cloth {
             .filter_map(|thread| {
                 let set: usize = rows.row(thread).iter().map(|w| w.count_ones() as usize).sum();
                 let up = set == across;
-                (across > 0 && (up || set == 0)).then(|| {
-                    (thread, if up == on_top { Side::Face } else { Side::Back })
-                })
+                (across > 0 && (up || set == 0))
+                    .then_some((thread, if up == on_top { Side::Face } else { Side::Back }))
             })
             .collect()
     }

@@ -10,6 +10,7 @@ pub mod fabric;
 pub mod fast;
 pub mod kes;
 pub mod knit;
+pub mod layers;
 pub mod motif;
 pub mod origin;
 pub mod weave;

@@ -17,6 +17,9 @@ pub struct Disk {
 /// texts can tell where it is too long.
 const LONGEST_FILE: u64 = (8 << 20) + 1;
 
+/// The longest weaving file. A lift plan of a thousand shafts is long, and quickly read.
+const LONGEST_DRAFT: u64 = (32 << 20) + 1;
+
 impl Disk {
     /// The project in the folder `root`.
     pub fn new(root: impl Into<PathBuf>) -> Self {
@@ -39,11 +42,16 @@ impl Disk {
         if !place.metadata().map_err(said)?.is_file() {
             return Err(format!("`{path}` is not a file"));
         }
+        let draft = super::path::is_draft(path);
+        let longest = if draft { LONGEST_DRAFT } else { LONGEST_FILE };
         let mut bytes = Vec::new();
         let file = std::fs::File::open(&place).map_err(said)?;
-        file.take(LONGEST_FILE).read_to_end(&mut bytes).map_err(said)?;
-        if bytes.len() as u64 == LONGEST_FILE {
-            return Err(format!("`{path}` is longer than {} MB", LONGEST_FILE >> 20));
+        file.take(longest).read_to_end(&mut bytes).map_err(said)?;
+        if bytes.len() as u64 == longest {
+            return Err(format!("`{path}` is longer than {} MB", longest >> 20));
+        }
+        if draft {
+            return Ok(letters(bytes));
         }
         String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
@@ -55,6 +63,15 @@ impl Disk {
                 place.line, place.column
             )
         })
+    }
+}
+
+/// The bytes of a weaving file: UTF-8, or else Latin-1, in which every byte is a letter, as older
+/// programs write it.
+fn letters(bytes: Vec<u8>) -> String {
+    match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => error.as_bytes().iter().map(|&byte| char::from(byte)).collect(),
     }
 }
 
@@ -131,6 +148,15 @@ mod tests {
         assert!(said(&mut disk, "bytes.garment").contains("line 2, column 4"));
         assert!(said(&mut disk, "d").contains("not a file"));
         assert!(said(&mut disk, "std::fabrik").contains("library"));
+    }
+
+    #[test]
+    fn weaving_files_of_old_programs_are_latin() {
+        let (_folder, mut disk) = project(&[("a.WIF", b"K\xf6per"), ("b.wif", "Köper".as_bytes())]);
+        for path in ["a.WIF", "b.wif"] {
+            let id = disk.open(path).unwrap();
+            assert_eq!(disk.text(id), "Köper");
+        }
     }
 
     #[cfg(unix)]

@@ -47,6 +47,11 @@ pub fn normal(path: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
+/// Whether a path names a weaving file, `.wif` in any case.
+pub fn is_draft(path: &str) -> bool {
+    path.rsplit_once('.').is_some_and(|(_, end)| end.eq_ignore_ascii_case("wif"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

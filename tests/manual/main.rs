@@ -156,6 +156,10 @@ fn tried(page: &Page, frames: &BTreeMap<String, String>) -> (Vec<String>, String
         if block.language != "garment" || block.names.is_some() {
             continue;
         }
+        // A weaving file is tried by the text that uses it.
+        if block.file.as_ref().is_some_and(|file| file.ends_with(".wif")) {
+            continue;
+        }
         let place = format!("{}:{}", page.path, block.line);
         if let Some(file) = &block.source {
             if let Some(line) = foreign_line(&block.text, file) {

@@ -5,8 +5,9 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Arg, Fields, Phrase};
 use crate::evaluate::value::Value;
-use crate::syntax::tree::Item;
-use crate::textile::weave::Weave;
+use crate::syntax::tree::{ExprKind, Item};
+use crate::textile::weave::{Weave, WeaveError};
+use crate::textile::wif;
 use std::collections::BTreeSet;
 
 /// The matrix of a draft, first pick first: an end is up where the pick lifts its shaft.
@@ -75,6 +76,32 @@ pub(super) fn drawdown<'t>(
         }
     }
     Some(lifted.iter().map(|up| shafts.iter().map(|shaft| up.contains(shaft)).collect()).collect())
+}
+
+/// `wif "serge.wif"`: the cloth of a weaver's file, without trailing ends and picks that do nothing.
+pub(super) fn of_file<'t>(
+    ev: &mut Evaluator<'t>,
+    way: &Phrase<'t>,
+) -> Option<Result<Weave, WeaveError>> {
+    let path = way.arg(0)?.expr;
+    let Some((file, text)) = ev.weaving_file(path.span) else {
+        if !matches!(path.kind, ExprKind::Text(_) | ExprKind::Unread) {
+            let told = Diagnostic::new("E0304", "`wif` wants the path of a file")
+                .at(path.span, "not a text in quotation marks");
+            ev.tell(told.help("such as `wif \"serge.wif\"`"));
+        }
+        return None;
+    };
+    let (found, told) = wif::read(file, text);
+    told.into_iter().for_each(|told| ev.tell(told));
+    let draft = found?.draft;
+    let (ends, picks) = draft.worked();
+    if ends.max(picks) > Weave::LARGEST_REPEAT {
+        return Some(Err(WeaveError::TooLarge));
+    }
+    let drawn = draft.drawdown().ok()?;
+    let rows = (0..picks).map(|pick| (0..ends).map(|end| drawn.up(end, pick)).collect()).collect();
+    Some(Weave::matrix(rows))
 }
 
 /// `1..4, 3, 2`: the numbers of threads, shafts or treadles.

@@ -11,8 +11,8 @@ use crate::textile::weave::{Weave, WeaveError};
 use crate::textile::yarn::Twist;
 
 /// The words that say what a weave is; a weave has one of them.
-const WAYS: [&str; 8] =
-    ["plain", "basket", "rib", "twill", "satin", "sateen", "matrix", "threading"];
+const WAYS: [&str; 9] =
+    ["plain", "basket", "rib", "twill", "satin", "sateen", "matrix", "threading", "wif"];
 
 /// A weave.
 pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Weave> {
@@ -97,6 +97,7 @@ fn made<'t>(
             }
             Weave::matrix(rows)
         }
+        "wif" => draft::of_file(ev, way)?,
         _ => {
             let mut rows = draft::drawdown(ev, fields, way)?;
             if downwards(fields) {

@@ -132,6 +132,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             action("satin", "NUMBER move NUMBER", "warp satin"),
             action("sateen", "NUMBER move NUMBER", "weft satin"),
             property("matrix", "", "1 = warp on top, as drawn on point paper"),
+            action("wif", "PATH", "a weaver's file: `wif \"serge.wif\"`"),
             property("rows", "upwards|downwards", "where the first pick stands =upwards"),
             property("threading", "…", "shafts of the ends: `1..4, 3, 2`"),
             property("tieup", "…", "shafts of the treadles: `[1, 2], [2, 3]`"),

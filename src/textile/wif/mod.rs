@@ -18,16 +18,8 @@ pub use write::write;
 
 use super::draft::Draft;
 
-/// The bytes of a weaving file as text: UTF-8, or else Latin-1, in which every byte is a letter.
-pub fn decode(bytes: Vec<u8>) -> String {
-    match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => error.as_bytes().iter().map(|&byte| char::from(byte)).collect(),
-    }
-}
-
-/// Metres as they are kept: whole nanometres, so that what is written reads back the same.
-fn nanometres(metres: f64) -> f64 {
+/// Metres as a draft keeps them: whole nanometres, so that what is written reads back the same.
+pub fn nanometres(metres: f64) -> f64 {
     (metres * 1e9).round() / 1e9
 }
 

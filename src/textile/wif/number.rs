@@ -17,11 +17,6 @@ impl<'t> Reader<'_, 't> {
         all.clone().find(|entry| !entry.is_empty()).or(all.clone().next()).copied()
     }
 
-    /// The value of a key, or nothing where it is not given.
-    pub fn text(&self, key: &str) -> Option<&'t str> {
-        self.entry(key).map(|entry| entry.value).filter(|value| !value.is_empty())
-    }
-
     /// Says that a value cannot be read.
     pub fn wrong(&mut self, entry: &Entry<'_>, wanted: &str) {
         let message = format!(

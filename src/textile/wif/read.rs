@@ -51,8 +51,16 @@ pub fn read(file: FileId, text: &str) -> (Option<Read>, Vec<Diagnostic>) {
 
 /// Sections of which a draft is made.
 const OWN: [&str; 10] = [
-    "WEAVING", "WARP", "WEFT", "THREADING", "TIEUP", "TREADLING", "LIFTPLAN", "COLOR TABLE",
-    "WARP COLORS", "WEFT COLORS",
+    "WEAVING",
+    "WARP",
+    "WEFT",
+    "THREADING",
+    "TIEUP",
+    "TREADLING",
+    "LIFTPLAN",
+    "COLOR TABLE",
+    "WARP COLORS",
+    "WEFT COLORS",
 ];
 
 fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
@@ -73,9 +81,8 @@ fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
         let section = lines.section("WEAVING")?;
         Reader { section, told }.count(key, &key.to_lowercase())
     });
-    let rising = lines
-        .section("WEAVING")
-        .and_then(|section| Reader { section, told }.flag("Rising Shed"));
+    let rising =
+        lines.section("WEAVING").and_then(|section| Reader { section, told }.flag("Rising Shed"));
     let ends = warp.as_ref().map_or(0, |(count, _)| *count);
     let picks = weft.as_ref().map_or(0, |(count, _)| *count);
 
@@ -273,14 +280,10 @@ fn system(
         each(section, told, count, of, own, |reader, entry| length(reader, entry, scale))
     };
     let (spacing, thickness) = (lengths("Spacing"), lengths("Thickness"));
-    let colours = each(
-        lines.section(&format!("{name} COLORS")),
-        told,
-        count,
-        of,
-        base,
-        |reader, entry| table.of_thread(reader, entry, true),
-    );
+    let colours =
+        each(lines.section(&format!("{name} COLORS")), told, count, of, base, |reader, entry| {
+            table.of_thread(reader, entry, true)
+        });
     let colours = colours.map(|list| {
         let usual = if name == "WARP" { INK } else { PAPER };
         list.into_iter().map(|colour| colour.unwrap_or(usual)).collect()
@@ -391,9 +394,8 @@ fn counted(told: &mut Told, at: &Span, declared: Option<u32>, highest: u32, what
         Some(declared) => {
             if highest > declared {
                 let key = if what == "shaft" { "Shafts" } else { "Treadles" };
-                let message = format!(
-                    "[WEAVING] {key}: {declared} are declared, {what} {highest} is used"
-                );
+                let message =
+                    format!("[WEAVING] {key}: {declared} are declared, {what} {highest} is used");
                 told.say("W0621", "WEAVING", *at, message);
             }
             declared
@@ -445,7 +447,8 @@ fn tell_lines(lines: &Lines<'_>, told: &mut Told) {
         for entry in section.entries.iter().filter(|_| !rows) {
             if !keys.insert(entry.key.to_ascii_lowercase()) {
                 let name = &section.name;
-                let message = format!("[{name}] {}: is given twice", super::number::short(entry.key));
+                let message =
+                    format!("[{name}] {}: is given twice", super::number::short(entry.key));
                 told.say_with("W0621", name, entry.span, message, "this one counts", None);
             }
         }

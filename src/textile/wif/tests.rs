@@ -66,7 +66,11 @@ fn what_programs_leave_out_or_put_in_is_read() {
     mended(&[("WARP", "; ends\nThreads = 4 ; four\nColor=0")], "", TWILL);
     mended(&[("THREADING", ";[4]abcd\n4=4\n1=0,1\n3=3,\n2= 2 ;x")], "", TWILL);
     mended(&[("LIFTPLAN", "1=0\n2=")], "", TWILL);
-    mended(&[("TIEUP", "-"), ("TREADLING", "-"), ("LIFTPLAN", "1=1,2,0\n3=3,4\n2=2,3\n4=1,4")], "", TWILL);
+    mended(
+        &[("TIEUP", "-"), ("TREADLING", "-"), ("LIFTPLAN", "1=1,2,0\n3=3,4\n2=2,3\n4=1,4")],
+        "",
+        TWILL,
+    );
     mended(&[("TIEUP", "1=0\n2="), ("LIFTPLAN", "1=1,2\n2=2,3\n3=3,4\n4=1,4")], "", TWILL);
     mended(&[("TREADLING", "1=1,3\n2=\n3=0,3")], "", "1111\n0000\n0011\n0000");
     mended(&[("WEAVING", "Shafts=4\nTreadles=4\nRising Shed=no")], "", "0011\n1001\n1100\n0110");
@@ -75,7 +79,11 @@ fn what_programs_leave_out_or_put_in_is_read() {
 
 #[test]
 fn what_is_mended_is_told() {
-    mended(&[("WEAVING", "Shafts=2\nTreadles=4")], "[WEAVING] Shafts: 2 are declared, shaft 4", TWILL);
+    mended(
+        &[("WEAVING", "Shafts=2\nTreadles=4")],
+        "[WEAVING] Shafts: 2 are declared, shaft 4",
+        TWILL,
+    );
     mended(&[("WEAVING", "Shafts=4\nTreadles=2")], "[WEAVING] Treadles: 2 are declared", TWILL);
     mended(&[("THREADING", "1=1\n2=2\n3=3\n4=4\n4=4")], "[THREADING] 4: is given twice", TWILL);
     mended(&[("THREADING", "1=1\n2=2\n3=3\n4=4\n5=1")], "[THREADING] 5: there are 4 ends", TWILL);
@@ -109,7 +117,10 @@ fn what_nobody_could_weave_is_refused_with_section_and_key() {
     refused(&[("THREADING", "1=99999999999999999999999")], "E0622 [THREADING] 1");
     refused(&[("THREADING", "1=-1")], "E0622 [THREADING] 1: `-1`");
     refused(&[("TREADLING", "1=1\n2=7")], "E0623 [TREADLING] 2: there is no treadle 7");
-    refused(&[("WARP COLORS", "3=2")], "E0623 [WARP COLORS] 3: colour 2 is named, but [COLOR TABLE]");
+    refused(
+        &[("WARP COLORS", "3=2")],
+        "E0623 [WARP COLORS] 3: colour 2 is named, but [COLOR TABLE]",
+    );
     refused(
         &[("COLOR TABLE", "1=0,0,0"), ("WEFT COLORS", "3=2")],
         "E0623 [WEFT COLORS] 3: there is no colour 2",
@@ -154,13 +165,6 @@ fn colours_and_lengths_are_those_of_the_threads() {
     assert_eq!(draft.warp.thickness.unwrap(), [1.27e-3; 4]);
     assert_eq!(draft.weft, Threads { spacing: Some(vec![2.54e-3; 4]), ..Threads::default() });
     assert_eq!((draft.title.as_str(), draft.notes.len()), ("Half; and half", 2));
-}
-
-#[test]
-fn bytes_of_old_programs_are_letters() {
-    let text = decode(b"[TEXT]\nTitle=K\xf6per".to_vec());
-    assert!(text.ends_with("Köper"));
-    assert!(decode("Köper".as_bytes().to_vec()).ends_with("Köper"));
 }
 
 fn numbers(most: u32) -> impl Strategy<Value = Vec<u32>> {

@@ -61,9 +61,11 @@ impl Told {
         let mut all = self.all;
         for ((code, section), count) in self.count {
             let Some(more) = count.checked_sub(ALIKE).filter(|more| *more > 0) else { continue };
-            if let Some(last) = all.iter_mut().rev().find(|told| {
-                told.code == code && told.message.starts_with(&format!("[{section}]"))
-            }) {
+            if let Some(last) = all
+                .iter_mut()
+                .rev()
+                .find(|told| told.code == code && told.message.starts_with(&format!("[{section}]")))
+            {
                 last.message.push_str(&format!(", and {more} more like this"));
             }
         }

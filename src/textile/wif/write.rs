@@ -38,10 +38,7 @@ pub fn write(draft: &Draft) -> String {
     }
     section("NOTES", notes);
 
-    let systems = [
-        ("WARP", draft.ends(), &draft.warp),
-        ("WEFT", draft.picks(), &draft.weft),
-    ];
+    let systems = [("WARP", draft.ends(), &draft.warp), ("WEFT", draft.picks(), &draft.weft)];
     for (name, count, threads) in systems {
         let mut own = Lines::default();
         own.line("Threads", count);
@@ -167,7 +164,8 @@ struct Palette {
 impl Palette {
     fn of(draft: &Draft) -> Palette {
         let mut palette = Palette { numbers: BTreeMap::new(), order: Vec::new() };
-        for colour in [&draft.warp, &draft.weft].into_iter().flat_map(|t| t.colours.iter().flatten())
+        for colour in
+            [&draft.warp, &draft.weft].into_iter().flat_map(|t| t.colours.iter().flatten())
         {
             let next = palette.order.len() + 1;
             if *palette.numbers.entry(colour.0).or_insert(next) == next {

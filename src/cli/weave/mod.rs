@@ -1,0 +1,67 @@
+//! `darzi weave`: drafts, from a weaver's file or a garment's text.
+
+mod source;
+mod stats;
+
+use super::{MessageFormat, Stop, output, say};
+use crate::textile::drawdown::Cloth;
+use crate::textile::wif;
+use std::path::PathBuf;
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  darzi weave blanket.wif                          what it is, and what a weaver would object to
+  darzi weave blanket.wif --stats                  its figures as JSON
+  darzi weave suit.garment --name serge --wif serge.wif
+  darzi weave suit.garment --name birdseye         a weave of the library")]
+pub(super) struct Weave {
+    /// A .wif file, or a .garment file
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// Which weave or fabric of the .garment file or the library
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+
+    /// Write it as a weaving file that other programs read
+    #[arg(long, value_name = "FILE")]
+    wif: Option<PathBuf>,
+
+    /// Print its figures as one JSON object
+    #[arg(long)]
+    stats: bool,
+
+    /// How messages are written
+    #[arg(long, value_enum, default_value_t = MessageFormat::Human)]
+    message_format: MessageFormat,
+}
+
+impl Weave {
+    pub(super) fn run(self) -> Result<(), Stop> {
+        if let Some(path) = &self.wif {
+            if !path.to_str().is_some_and(crate::world::path::is_draft) {
+                let path = path.display();
+                return Err(Stop::Call(format!("`{path}` is not a .wif file")));
+            }
+            output::expect_folder(path)?;
+        }
+        let source = source::read(&self.file, self.name.as_deref(), self.message_format)?;
+        let drawn = source
+            .draft
+            .drawdown()
+            .map_err(|error| Stop::Call(format!("`{}`: {error}", self.file.display())))?;
+        let cloth = Cloth::new(drawn);
+        if let Some(path) = &self.wif {
+            let text = wif::write(&source.draft);
+            output::write(path, |out| out.write_all(text.as_bytes()))?;
+        }
+        let figures = stats::Figures::of(&source, &cloth);
+        if self.stats {
+            return say(&format!("{:#}\n", figures.json()));
+        }
+        if self.wif.is_none() {
+            return say(&figures.summary());
+        }
+        Ok(())
+    }
+}
