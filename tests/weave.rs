@@ -185,3 +185,31 @@ fn weaves_of_texts_are_drafts() {
     let unknown = weave(folder.path(), &["suit.garment", "--name", "birdsey"]);
     assert!(told(&unknown).contains("did you mean `birdseye`"), "{}", told(&unknown));
 }
+
+/// What is said of a call, one code each.
+fn codes(folder: &Path, arguments: &[&str]) -> Vec<String> {
+    let output = weave(folder, &[arguments, &["--message-format", "json"]].concat());
+    told(&output)
+        .lines()
+        .map(|line| {
+            serde_json::from_str::<Value>(line).unwrap()["code"].as_str().unwrap().to_owned()
+        })
+        .collect()
+}
+
+#[test]
+fn a_weavers_objections_are_told_of_files_and_texts() {
+    assert_eq!(codes(&data(), &["dtx_desired_basic_wif_two_color_liftplan.wif"]), [""; 0]);
+    let long = codes(&data(), &["dtx_desired_basic_wif_multi-byte_multi_treadled.wif"]);
+    assert_eq!(long, ["W0624", "W0601"]);
+    let call = ["thunderloom_2229.wif", "--shafts", "2", "--treadles", "3"];
+    assert_eq!(codes(&data(), &call), ["W0623", "W0623", "W0624"]);
+    let folder = tempfile::tempdir().unwrap();
+    let text = "weave loose { matrix: |1000|1110|0010|1011| }\n";
+    std::fs::write(folder.path().join("double.garment"), text).unwrap();
+    assert_eq!(codes(folder.path(), &["double.garment"]), ["W0603"]);
+    std::fs::write(folder.path().join("none.garment"), "\n").unwrap();
+    for name in ["satin_8", "honeycomb", "crepe", "basket_3", "poplin", "denim"] {
+        assert_eq!(codes(folder.path(), &["none.garment", "--name", name]), [""; 0], "{name}");
+    }
+}

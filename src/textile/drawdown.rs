@@ -2,6 +2,7 @@
 //! counted there.
 
 use super::weave::Weave;
+use std::collections::BTreeSet;
 
 /// The drawdown of a draft. Pick 0 is the first pick, end 0 the first end.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -160,9 +161,14 @@ impl Drawdown {
 
     /// The longest stretch of equal crossings along any row, of warp up or of warp down; as the
     /// rows stand, or closed to rings. The first of equally long ones; none where there is none.
-    fn longest_in_rows(&self, up: bool, ring: bool) -> Option<Float> {
+    fn longest_in_rows(
+        &self,
+        rows: impl Iterator<Item = usize>,
+        up: bool,
+        ring: bool,
+    ) -> Option<Float> {
         let mut longest: Option<Float> = None;
-        for pick in 0..self.picks {
+        for pick in rows {
             let mut offer = |from: usize, length: usize| {
                 if length > longest.map_or(0, |float| float.length) {
                     longest = Some(Float { thread: pick, from, length });
@@ -224,7 +230,20 @@ impl Cloth {
     /// which case a float may go once about a thread and more.
     pub fn longest(&self, system: System, side: Side, round: bool) -> Option<Float> {
         let (rows, on_top) = self.threads(system);
-        rows.longest_in_rows(on_top == (side == Side::Face), round)
+        rows.longest_in_rows(0..rows.picks(), on_top == (side == Side::Face), round)
+    }
+
+    /// The longest float round the repeat among the threads that are bound, which those in
+    /// `loose` are not.
+    pub fn longest_bound(
+        &self,
+        system: System,
+        side: Side,
+        loose: &BTreeSet<usize>,
+    ) -> Option<Float> {
+        let (rows, on_top) = self.threads(system);
+        let bound = (0..rows.picks()).filter(|thread| !loose.contains(thread));
+        rows.longest_in_rows(bound, on_top == (side == Side::Face), true)
     }
 
     /// Threads of a system that never change sides, and the side on which they stay.

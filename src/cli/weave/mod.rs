@@ -4,7 +4,7 @@ mod source;
 mod stats;
 
 use super::{MessageFormat, Stop, output, say};
-use crate::textile::drawdown::Cloth;
+use crate::textile::objection::Loom;
 use crate::textile::wif;
 use std::path::PathBuf;
 
@@ -27,6 +27,14 @@ pub(super) struct Weave {
     #[arg(long, value_name = "FILE")]
     wif: Option<PathBuf>,
 
+    /// Shafts of your loom; told where the draft wants more
+    #[arg(long, value_name = "N")]
+    shafts: Option<usize>,
+
+    /// Treadles of your loom; told where the draft wants more
+    #[arg(long, value_name = "N")]
+    treadles: Option<usize>,
+
     /// Print its figures as one JSON object
     #[arg(long)]
     stats: bool,
@@ -45,17 +53,13 @@ impl Weave {
             }
             output::expect_folder(path)?;
         }
-        let source = source::read(&self.file, self.name.as_deref(), self.message_format)?;
-        let drawn = source
-            .draft
-            .drawdown()
-            .map_err(|error| Stop::Call(format!("`{}`: {error}", self.file.display())))?;
-        let cloth = Cloth::new(drawn);
+        let loom = Loom { shafts: self.shafts, treadles: self.treadles };
+        let source = source::read(&self.file, self.name.as_deref(), &loom, self.message_format)?;
         if let Some(path) = &self.wif {
             let text = wif::write(&source.draft);
             output::write(path, |out| out.write_all(text.as_bytes()))?;
         }
-        let figures = stats::Figures::of(&source, &cloth);
+        let figures = stats::Figures::of(&source);
         if self.stats {
             return say(&format!("{:#}\n", figures.json()));
         }

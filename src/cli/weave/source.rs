@@ -5,7 +5,9 @@ use crate::cli::{MessageFormat, Stop};
 use crate::diagnostic::spelling::nearest;
 use crate::evaluate::catalogue::{self, Woven};
 use crate::textile::draft::{Draft, Shedding, Threads};
+use crate::textile::drawdown::Cloth;
 use crate::textile::fabric::{Structure, Thread};
+use crate::textile::objection::{Loom, Spot, beyond_loom, objections};
 use crate::textile::wif;
 use crate::world::path::is_draft;
 use std::path::Path;
@@ -15,32 +17,63 @@ pub(super) struct Source {
     pub draft: Draft,
     /// Who says so: the program that wrote the file, or the text it stands in.
     pub from: String,
+    /// Its cloth.
+    pub cloth: Cloth,
+    /// The part of the cloth in which ends and picks do something.
+    pub worked: Cloth,
 }
 
 /// Reads the draft of a file.
 ///
 /// # Errors
 /// [`Stop::Input`] if the file is wrong, [`Stop::Call`] where it has no weave of that name.
-pub(super) fn read(file: &Path, name: Option<&str>, format: MessageFormat) -> Result<Source, Stop> {
+pub(super) fn read(
+    file: &Path,
+    name: Option<&str>,
+    loom: &Loom,
+    format: MessageFormat,
+) -> Result<Source, Stop> {
     if file.to_str().is_some_and(is_draft) {
         if name.is_some() {
             return Err(Stop::Call("a .wif file holds one draft; leave out --name".to_owned()));
         }
-        return of_weaver(file, format);
+        return of_weaver(file, loom, format);
     }
-    of_garment(file, name, format)
+    of_garment(file, name, loom, format)
 }
 
-fn of_weaver(file: &Path, format: MessageFormat) -> Result<Source, Stop> {
+fn of_weaver(file: &Path, loom: &Loom, format: MessageFormat) -> Result<Source, Stop> {
     let project = Project::named(file, format)?;
     let (id, text) = project.text();
-    let (found, told) = wif::read(id, text);
+    let (found, mut told) = wif::read(id, text);
+    let Some(found) = found else {
+        project.tell_all(told)?;
+        return Err(Stop::Input);
+    };
+    let place = |spot: Spot| {
+        let at = &found.place;
+        match spot {
+            Spot::End(end) => at.ends.get(end).copied().unwrap_or(at.warp),
+            Spot::Pick(pick) => at.picks.get(pick).copied().unwrap_or(at.weft),
+            Spot::Shafts => at.shafts,
+            Spot::Treadles => at.treadles,
+            Spot::Warp => at.warp,
+            Spot::Weft => at.weft,
+        }
+    };
+    let source = Source::new(found.draft, found.program)?;
+    told.extend(beyond_loom(&source.draft, loom, place));
+    told.extend(objections(&source.draft, &source.worked, place));
     project.tell_all(told)?;
-    let Some(found) = found else { return Err(Stop::Input) };
-    Ok(Source { draft: found.draft, from: found.program })
+    Ok(source)
 }
 
-fn of_garment(file: &Path, name: Option<&str>, format: MessageFormat) -> Result<Source, Stop> {
+fn of_garment(
+    file: &Path,
+    name: Option<&str>,
+    loom: &Loom,
+    format: MessageFormat,
+) -> Result<Source, Stop> {
     let mut project = Project::at(file, format)?;
     let (mut woven, told) =
         project.with(|world, root| catalogue::woven(world, root, &Default::default()));
@@ -72,7 +105,9 @@ fn of_garment(file: &Path, name: Option<&str>, format: MessageFormat) -> Result<
         }
     };
     let found = woven.swap_remove(found);
-    Ok(Source { draft: draft(&found), from: found.home })
+    let source = Source::new(draft(&found), found.home)?;
+    project.tell_all(beyond_loom(&source.draft, loom, |_| found.at))?;
+    Ok(source)
 }
 
 /// The draft of a weave, with the threads of its fabric.
@@ -92,6 +127,13 @@ fn draft(woven: &Woven) -> Draft {
 }
 
 impl Source {
+    fn new(draft: Draft, from: String) -> Result<Source, Stop> {
+        let drawn = draft.drawdown().map_err(|error| Stop::Call(error.to_string()))?;
+        let (ends, picks) = draft.worked();
+        let worked = Cloth::new(drawn.cropped(ends, picks));
+        Ok(Source { draft, from, cloth: Cloth::new(drawn), worked })
+    }
+
     /// Which part of the file says what the picks lift.
     pub fn way(&self) -> &'static str {
         match self.draft.shedding {

@@ -1,7 +1,7 @@
 //! The figures of a draft, for programs and for people.
 
 use super::source::Source;
-use crate::textile::drawdown::{Cloth, Drawdown, Side, System};
+use crate::textile::drawdown::{Drawdown, Side, System};
 use crate::textile::layers::Layers;
 use crate::units::{length, trimmed};
 use serde_json::{Value, json};
@@ -11,24 +11,17 @@ use std::fmt::Write;
 /// What there is to count of a draft.
 pub(super) struct Figures<'a> {
     source: &'a Source,
-    cloth: &'a Cloth,
     layers: Layers,
 }
 
 impl<'a> Figures<'a> {
-    pub fn of(source: &'a Source, cloth: &'a Cloth) -> Self {
-        let (ends, picks) = source.draft.worked();
-        let layers = if (ends, picks) == (cloth.picks.ends(), cloth.picks.picks()) {
-            Layers::of(cloth)
-        } else {
-            Layers::of(&Cloth::new(cloth.picks.cropped(ends, picks)))
-        };
-        Figures { source, cloth, layers }
+    pub fn of(source: &'a Source) -> Self {
+        Figures { source, layers: Layers::of(&source.worked) }
     }
 
     /// The longest float; 0 where the system never lies on that side.
     fn float(&self, system: System, side: Side, round: bool) -> usize {
-        self.cloth.longest(system, side, round).map_or(0, |float| float.length)
+        self.source.cloth.longest(system, side, round).map_or(0, |float| float.length)
     }
 
     /// One JSON object. Floats are counted within the draft as it stands; those of
@@ -37,7 +30,7 @@ impl<'a> Figures<'a> {
         let draft = &self.source.draft;
         let (ends, picks) = draft.worked();
         let crossings = (draft.ends() * draft.picks()).max(1) as f64;
-        let up = self.cloth.picks.warp_up();
+        let up = self.source.cloth.picks.warp_up();
         json!({
             "title": draft.title,
             "from": self.source.from,
@@ -62,11 +55,11 @@ impl<'a> Figures<'a> {
                 "longest_weft_float": self.float(System::Weft, Side::Face, true),
                 "longest_warp_float_back": self.float(System::Warp, Side::Back, true),
                 "longest_weft_float_back": self.float(System::Weft, Side::Back, true),
-                "warp_interlacings": self.cloth.changes(System::Warp),
-                "weft_interlacings": self.cloth.changes(System::Weft),
+                "warp_interlacings": self.source.cloth.changes(System::Warp),
+                "weft_interlacings": self.source.cloth.changes(System::Weft),
             },
             "layers": self.layers.count(),
-            "drawdown_sha256": fingerprint(&self.cloth.picks),
+            "drawdown_sha256": fingerprint(&self.source.cloth.picks),
         })
     }
 
@@ -112,7 +105,7 @@ impl<'a> Figures<'a> {
         let _ = writeln!(out, "{:<12}warp {}", "floats", floats(System::Warp));
         let _ = writeln!(out, "{:<12}weft {}", "", floats(System::Weft));
         let crossings = (draft.ends() * draft.picks()).max(1) as f64;
-        let share = self.cloth.picks.warp_up() as f64 / crossings;
+        let share = self.source.cloth.picks.warp_up() as f64 / crossings;
         let _ = writeln!(out, "{:<12}{}% of the face", "warp", trimmed(share * 100.0, 1));
         if self.layers.count() > 1 {
             let _ = writeln!(out, "{:<12}{}", "layers", self.layers.count());

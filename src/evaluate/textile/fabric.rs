@@ -8,7 +8,9 @@ use crate::evaluate::fields::{Fields, Phrase};
 use crate::evaluate::item::{ItemId, Made};
 use crate::evaluate::words::Kind;
 use crate::textile::fabric::{Fabric, Finish, Structure, Thread};
+use crate::textile::objection::too_close_by;
 use crate::textile::origin::{Origin, Origins};
+use crate::textile::sett::{self, Lie};
 use crate::textile::weave::Weave;
 use crate::textile::yarn::{Fibre, Twist, Yarn};
 use crate::units::{self, Dimension};
@@ -344,16 +346,19 @@ fn check_mass(
     );
 }
 
-/// W0604: threads closer than they are thick. W0601: floats longer than 6 mm.
+/// W0604: threads closer than they are thick. W0601: floats longer than 6 mm. W0625: threads too
+/// close for the weave.
 fn check_threads(ev: &mut Evaluator<'_>, fields: &Fields<'_>, fabric: &Fabric) {
     let Structure::Woven { weave, warp, weft } = &fabric.structure else { return };
     let floats = weave.floats();
+    let mut overfull = false;
     for (word, thread, across, float) in [
         ("warp", warp, weft, floats.warp_on_face.max(floats.warp_on_back)),
         ("weft", weft, warp, floats.weft_on_face.max(floats.weft_on_back)),
     ] {
         let Some(phrase) = fields.get(word) else { continue };
         if thread.yarn.diameter > thread.spacing * 1.02 {
+            overfull = true;
             ev.tell(
                 Diagnostic::new(
                     "W0604",
@@ -382,5 +387,13 @@ fn check_threads(ev: &mut Evaluator<'_>, fields: &Fields<'_>, fabric: &Fabric) {
                 .help("floats of more than 6 mm catch; bind more often or set the threads closer"),
             );
         }
+    }
+    let wanted = sett::room_of(&fabric.structure);
+    if let (true, false, Some(phrase)) =
+        (wanted > sett::GIVE, overfull, fields.get("warp").or(fields.get("weft")))
+    {
+        let [warp, weft] =
+            [warp, weft].map(|t| Lie { diameter: t.yarn.diameter, spacing: t.spacing });
+        ev.tell(too_close_by(warp, weft, wanted).at(phrase.span, "sett and yarn"));
     }
 }

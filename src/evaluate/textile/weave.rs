@@ -7,6 +7,8 @@ use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Arg, Fields, Phrase, bare};
 use crate::evaluate::item::ItemId;
 use crate::syntax::tree::{BinaryOp, Expr, ExprKind, Item};
+use crate::textile::drawdown::{Cloth, Drawdown};
+use crate::textile::objection::falls_apart;
 use crate::textile::weave::{Weave, WeaveError};
 use crate::textile::yarn::Twist;
 
@@ -50,15 +52,9 @@ pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<W
             return None;
         }
     };
-    if weave.floats().longest().is_none() {
-        ev.tell(
-            Diagnostic::new(
-                "W0603",
-                format!("`{}` falls apart: a thread is never bound", weave.name),
-            )
-            .at(way.span, "here")
-            .help("every end and every pick changes sides somewhere in the repeat"),
-        );
+    if let Some((_, why, help)) = falls_apart(&Cloth::new(Drawdown::of_weave(&weave))) {
+        let message = format!("`{}`: {why}", weave.name);
+        ev.tell(Diagnostic::new("W0603", message).at(way.span, "here").help(help));
     }
     Some(weave)
 }
