@@ -213,3 +213,29 @@ fn a_weavers_objections_are_told_of_files_and_texts() {
         assert_eq!(codes(folder.path(), &["none.garment", "--name", name]), [""; 0], "{name}");
     }
 }
+
+#[test]
+fn drafts_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = data().join("dtx_desired_basic_wif_many_color_liftplan_and_zeros.wif");
+    let file = file.to_str().unwrap();
+    for name in ["draft.png", "draft.SVG"] {
+        let output = weave(folder.path(), &[file, "--draft", name]);
+        assert_eq!(output.status.code(), Some(0), "{}", told(&output));
+        assert!(output.stdout.is_empty(), "a drawing is met with silence");
+    }
+    let picture = image::open(folder.path().join("draft.png")).unwrap().to_rgb8();
+    // The colours of its threads: the first end green, the first pick magenta.
+    for colour in [[0, 255, 0], [255, 20, 255]] {
+        assert!(picture.pixels().any(|pixel| pixel.0 == colour), "{colour:?}");
+    }
+    let text = std::fs::read_to_string(folder.path().join("draft.SVG")).unwrap();
+    assert!(text.starts_with("<svg ") && text.contains("many color liftplan and zeros"));
+    let wrong = weave(folder.path(), &[file, "--draft", "draft.jpg"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(told(&wrong).contains("neither a .png nor a .svg"));
+    // The same bytes every time.
+    let before = std::fs::read(folder.path().join("draft.png")).unwrap();
+    weave(folder.path(), &[file, "--draft", "draft.png"]);
+    assert_eq!(before, std::fs::read(folder.path().join("draft.png")).unwrap());
+}

@@ -107,6 +107,29 @@ impl Draft {
         }
     }
 
+    /// So many repeats of the draft side by side and above each other, as one draft.
+    #[must_use]
+    pub fn repeated(&self, across: usize, upwards: usize) -> Draft {
+        let threads = |threads: &Threads, times: usize| Threads {
+            colours: threads.colours.as_ref().map(|list| list.repeat(times)),
+            spacing: threads.spacing.as_ref().map(|list| list.repeat(times)),
+            thickness: threads.thickness.as_ref().map(|list| list.repeat(times)),
+        };
+        let shedding = match &self.shedding {
+            Shedding::Treadled { tieup, treadling } => {
+                Shedding::Treadled { tieup: tieup.clone(), treadling: again(treadling, upwards) }
+            }
+            Shedding::Lifted { plan } => Shedding::Lifted { plan: again(plan, upwards) },
+        };
+        Draft {
+            threading: again(&self.threading, across),
+            shedding,
+            warp: threads(&self.warp, across),
+            weft: threads(&self.weft, upwards),
+            ..self.clone()
+        }
+    }
+
     /// Ends.
     pub fn ends(&self) -> usize {
         self.threading.len()
@@ -221,6 +244,11 @@ impl Draft {
         }
         Ok(drawn)
     }
+}
+
+/// A list so many times.
+fn again(lists: &[Vec<u32>], times: usize) -> Vec<Vec<u32>> {
+    std::iter::repeat_n(lists, times).flatten().cloned().collect()
 }
 
 /// Numbers equal things alike, from 1, in the order in which they appear; and the things.

@@ -14,6 +14,7 @@ pub mod layers;
 pub mod motif;
 pub mod objection;
 pub mod origin;
+pub mod paper;
 pub mod sett;
 pub mod weave;
 pub mod wif;

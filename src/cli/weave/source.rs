@@ -17,6 +17,8 @@ pub(super) struct Source {
     pub draft: Draft,
     /// Who says so: the program that wrote the file, or the text it stands in.
     pub from: String,
+    /// Whether it is a repeat, which weavers draw more than once, or a whole piece.
+    pub repeat: bool,
     /// Its cloth.
     pub cloth: Cloth,
     /// The part of the cloth in which ends and picks do something.
@@ -61,7 +63,7 @@ fn of_weaver(file: &Path, loom: &Loom, format: MessageFormat) -> Result<Source, 
             Spot::Weft => at.weft,
         }
     };
-    let source = Source::new(found.draft, found.program)?;
+    let source = Source::new(found.draft, found.program, false)?;
     told.extend(beyond_loom(&source.draft, loom, place));
     told.extend(objections(&source.draft, &source.worked, place));
     project.tell_all(told)?;
@@ -105,7 +107,7 @@ fn of_garment(
         }
     };
     let found = woven.swap_remove(found);
-    let source = Source::new(draft(&found), found.home)?;
+    let source = Source::new(draft(&found), found.home, true)?;
     project.tell_all(beyond_loom(&source.draft, loom, |_| found.at))?;
     Ok(source)
 }
@@ -127,11 +129,19 @@ fn draft(woven: &Woven) -> Draft {
 }
 
 impl Source {
-    fn new(draft: Draft, from: String) -> Result<Source, Stop> {
+    fn new(draft: Draft, from: String, repeat: bool) -> Result<Source, Stop> {
         let drawn = draft.drawdown().map_err(|error| Stop::Call(error.to_string()))?;
         let (ends, picks) = draft.worked();
         let worked = Cloth::new(drawn.cropped(ends, picks));
-        Ok(Source { draft, from, cloth: Cloth::new(drawn), worked })
+        Ok(Source { draft, from, repeat, cloth: Cloth::new(drawn), worked })
+    }
+
+    /// The draft as it is drawn, with its cloth: a small repeat several times.
+    pub fn drawn(&self) -> Result<Source, Stop> {
+        const FEW: usize = 16;
+        let times = |count: usize| if self.repeat { FEW.div_ceil(count.max(1)) } else { 1 };
+        let draft = self.draft.repeated(times(self.draft.ends()), times(self.draft.picks()));
+        Source::new(draft, self.from.clone(), self.repeat)
     }
 
     /// Which part of the file says what the picks lift.
