@@ -4,6 +4,7 @@
 //! the chart (the first pick, the first knitted row) and column 0 its left column.
 
 pub mod clo;
+pub mod compound;
 pub mod draft;
 pub mod drawdown;
 pub mod fabric;

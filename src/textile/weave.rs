@@ -48,6 +48,9 @@ pub enum WeaveError {
         /// The repeat.
         repeat: u32,
     },
+    /// A honeycomb of few threads or an odd number of them.
+    #[error("a honeycomb has an even number of threads, 6 or more")]
+    Honeycomb,
     /// A satin that does not exist.
     #[error("there is no satin of {repeat} with move {step}")]
     NoSatin {
@@ -218,6 +221,29 @@ impl Weave {
         let mut weave = Self::satin(n, step)?.inverted();
         weave.name = format!("sateen {n} move {step}");
         Ok(weave)
+    }
+
+    /// Honeycomb of `n` ends and picks, an even number from 6: a pointed twill whose one diamond is
+    /// filled with warp, so that ridges of long floats stand about hollow cells.
+    ///
+    /// # Errors
+    /// [`WeaveError::Honeycomb`], [`WeaveError::TooLarge`].
+    pub fn honeycomb(n: u32) -> Result<Weave, WeaveError> {
+        if n < 6 || !n.is_multiple_of(2) {
+            return Err(WeaveError::Honeycomb);
+        }
+        let n = n as usize;
+        if n > Self::LARGEST_REPEAT {
+            return Err(WeaveError::TooLarge);
+        }
+        // Threads from the middle of the filled diamond, round the repeat.
+        let far = |at: usize| at.min(n - at);
+        let up = |end: usize, pick: usize| {
+            let away = far(end) + far(pick);
+            away <= n / 2 - 2 || away == n / 2
+        };
+        let rows = (0..n).map(|pick| (0..n).map(|end| up((end + n / 2) % n, pick)).collect());
+        Ok(Weave { name: format!("honeycomb {n}"), rows: rows.collect() })
     }
 
     /// The moves that make a satin of `n`, in rising order.
@@ -395,6 +421,20 @@ mod tests {
         assert_eq!(drawn(&Weave::sateen(5, 2).unwrap()), "00010/01000/00001/00100/10000");
         let none = WeaveError::NoSatin { repeat: 8, step: 2, moves: vec![3, 5] };
         assert_eq!(Weave::satin(8, 2), Err(none));
+    }
+
+    #[test]
+    fn honeycomb_is_a_filled_diamond_between_its_lines() {
+        let honeycomb = Weave::honeycomb(8).unwrap();
+        assert_eq!(
+            drawn(&honeycomb),
+            "01011101/00101010/00010100/00001000/00010100/00101010/01011101/10111110"
+        );
+        let floats = honeycomb.floats();
+        assert_eq!((floats.warp_on_face, floats.weft_on_face), (Some(5), Some(7)));
+        assert_eq!(Weave::honeycomb(7), Err(WeaveError::Honeycomb));
+        assert_eq!(Weave::honeycomb(4), Err(WeaveError::Honeycomb));
+        assert_eq!(Weave::honeycomb(u32::MAX - 1), Err(WeaveError::TooLarge));
     }
 
     #[test]

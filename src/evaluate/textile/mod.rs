@@ -1,6 +1,7 @@
 //! Yarns, fabrics, weaves, knits and motifs, from their blocks.
 
 mod chart;
+mod compound;
 mod draft;
 mod fabric;
 mod knit;

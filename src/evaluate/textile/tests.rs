@@ -79,6 +79,29 @@ fn a_yarn_has_si_units_and_the_defaults_of_the_language() {
 }
 
 #[test]
+fn weaves_are_made_of_weaves() {
+    let damask = weave("turn: satin_8   profile: |#.|.#|");
+    assert_eq!((damask.ends(), damask.picks(), damask.warp_share()), (16, 16, 0.5));
+    let left = |pick| (0..8).filter(|&end| damask.warp_up(end, pick)).count();
+    assert_eq!((left(0), left(8)), (1, 7), "the bottom row is woven first");
+    let blocks = weave("legend { \"o\": plain   \"x\": basket }   profile: |xxo|");
+    assert_eq!((blocks.ends(), blocks.picks()), (12, 4));
+    let double = weave("upper: plain   lower: twill_2_2");
+    assert_eq!((double.ends(), double.picks()), (8, 8));
+    let (_, told) = made("weave w { matrix: |1011|0010|1110|1000| }");
+    assert_eq!(told, ["W0603"], "two layers are no mistake only where they are asked for");
+    assert_eq!(weave("upper: plain   lower: basket   stitch: 8").picks(), 16);
+    let broad = format!("weave w {{ turn: satin_8   profile: |{}| }}", "#".repeat(600));
+    assert_eq!(made(&broad).1, ["E0303"]);
+    let brocade = weave("ground: plain   bind: 4   figure: |.####.|..##..|......|......|");
+    // Four ground picks, and one more where the figure has a row.
+    assert_eq!((brocade.ends(), brocade.picks()), (6, 6));
+    let borders = weave("ground: twill_2_2   extra: warp   figure: |.#|#.|");
+    assert_eq!((borders.ends(), borders.picks()), (8, 4));
+    assert_eq!(weave("honeycomb 8").floats().warp_on_face, Some(5));
+}
+
+#[test]
 fn a_matrix_reads_as_it_hangs_and_a_draft_gives_the_same_cloth() {
     let matrix = weave("matrix: |1000|0100|0010|0001|");
     assert_eq!(matrix.rows[0], [false, false, false, true], "the bottom row is the first pick");

@@ -1,7 +1,7 @@
 //! Weaves: by name, by matrix, by draft.
 
 use super::chart::{self, Keys};
-use super::draft;
+use super::{compound, draft};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Arg, Fields, Phrase, bare};
@@ -13,8 +13,24 @@ use crate::textile::weave::{Weave, WeaveError};
 use crate::textile::yarn::Twist;
 
 /// The words that say what a weave is; a weave has one of them.
-const WAYS: [&str; 9] =
-    ["plain", "basket", "rib", "twill", "satin", "sateen", "matrix", "threading", "wif"];
+const WAYS: [&str; 13] = [
+    "plain",
+    "basket",
+    "rib",
+    "twill",
+    "satin",
+    "sateen",
+    "honeycomb",
+    "matrix",
+    "threading",
+    "wif",
+    "upper",
+    "profile",
+    "figure",
+];
+
+/// Crossings of a repeat that count as one step of evaluation.
+const CROSSINGS: usize = 16;
 
 /// A weave.
 pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Weave> {
@@ -52,7 +68,14 @@ pub(in crate::evaluate) fn weave(ev: &mut Evaluator<'_>, id: ItemId) -> Option<W
             return None;
         }
     };
-    if let Some((_, why, help)) = falls_apart(&Cloth::new(Drawdown::of_weave(&weave))) {
+    // A large repeat is worked out in no time; many of them would fill the memory.
+    if !ev.step((weave.ends() * weave.picks() / CROSSINGS) as u64, way.span) {
+        return None;
+    }
+    // Two cloths are two unless they are stitched.
+    let meant = way.word.name == "upper" && fields.get("stitch").is_none();
+    let apart = if meant { None } else { falls_apart(&Cloth::new(Drawdown::of_weave(&weave))) };
+    if let Some((_, why, help)) = apart {
         let message = format!("`{}`: {why}", weave.name);
         ev.tell(Diagnostic::new("W0603", message).at(way.span, "here").help(help));
     }
@@ -94,6 +117,10 @@ fn made<'t>(
             Weave::matrix(rows)
         }
         "wif" => draft::of_file(ev, way)?,
+        "honeycomb" => Weave::honeycomb(threads(ev, way)?),
+        "upper" => compound::double(ev, fields, way)?,
+        "profile" => compound::profile(ev, fields, way)?,
+        "figure" => compound::figure(ev, fields, way)?,
         _ => {
             let mut rows = draft::drawdown(ev, fields, way)?;
             if downwards(fields) {
@@ -104,7 +131,7 @@ fn made<'t>(
     })
 }
 
-fn downwards(fields: &Fields<'_>) -> bool {
+pub(super) fn downwards(fields: &Fields<'_>) -> bool {
     fields.get("rows").and_then(|phrase| phrase.choice(0)) == Some("downwards")
 }
 
@@ -113,7 +140,7 @@ fn threads<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<u32> {
     small(ev, way.arg(0)?, 1)
 }
 
-fn small<'t>(ev: &mut Evaluator<'t>, arg: Arg<'t>, least: i64) -> Option<u32> {
+pub(super) fn small<'t>(ev: &mut Evaluator<'t>, arg: Arg<'t>, least: i64) -> Option<u32> {
     let most = i64::try_from(Weave::LARGEST_REPEAT).unwrap_or(i64::MAX);
     u32::try_from(ev.whole_number(arg, least, most)?).ok()
 }
@@ -228,6 +255,9 @@ fn tell(ev: &mut Evaluator<'_>, error: &WeaveError, at: Span) {
         WeaveError::Runs => Diagnostic::new("E0306", error.to_string()).at(at, "here").help(USAGE),
         WeaveError::Standstill { .. } => {
             Diagnostic::new("E0303", error.to_string()).at(at, "here").help("the usual move is 1")
+        }
+        WeaveError::Honeycomb => {
+            Diagnostic::new("E0303", error.to_string()).at(at, "here").help("such as `honeycomb 8`")
         }
         WeaveError::Empty | WeaveError::TooLarge => {
             Diagnostic::new("E0303", error.to_string()).at(at, "here")
