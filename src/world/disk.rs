@@ -66,9 +66,19 @@ impl Disk {
     }
 }
 
-/// The bytes of a weaving file: UTF-8, or else Latin-1, in which every byte is a letter, as older
-/// programs write it.
+/// The bytes of a weaving file: UTF-8, UTF-16 by its mark, or else Latin-1, in which every byte is
+/// a letter, as older programs write it.
 fn letters(bytes: Vec<u8>) -> String {
+    let wide = |of: fn([u8; 2]) -> u16| {
+        let pairs: Vec<u16> =
+            bytes.chunks_exact(2).skip(1).map(|two| of([two[0], two[1]])).collect();
+        String::from_utf16_lossy(&pairs)
+    };
+    match bytes.as_slice() {
+        [0xff, 0xfe, ..] => return wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => return wide(u16::from_be_bytes),
+        _ => {}
+    }
     match String::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => error.as_bytes().iter().map(|&byte| char::from(byte)).collect(),
@@ -152,8 +162,13 @@ mod tests {
 
     #[test]
     fn weaving_files_of_old_programs_are_latin() {
-        let (_folder, mut disk) = project(&[("a.WIF", b"K\xf6per"), ("b.wif", "Köper".as_bytes())]);
-        for path in ["a.WIF", "b.wif"] {
+        let (_folder, mut disk) = project(&[
+            ("a.WIF", b"K\xf6per"),
+            ("b.wif", "Köper".as_bytes()),
+            ("c.wif", b"\xff\xfeK\0\xf6\0p\0e\0r\0"),
+            ("d.plm", b"\xfe\xff\0K\0\xf6\0p\0e\0r"),
+        ]);
+        for path in ["a.WIF", "b.wif", "c.wif", "d.plm"] {
             let id = disk.open(path).unwrap();
             assert_eq!(disk.text(id), "Köper");
         }

@@ -47,9 +47,10 @@ pub fn normal(path: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
-/// Whether a path names a weaving file, `.wif` in any case.
+/// Whether a path names a weaving file: `.wif` in any case, or `.plm`, as PixeLoom calls it.
 pub fn is_draft(path: &str) -> bool {
-    path.rsplit_once('.').is_some_and(|(_, end)| end.eq_ignore_ascii_case("wif"))
+    let end = path.rsplit_once('.').map_or("", |(_, end)| end);
+    ["wif", "plm"].iter().any(|known| end.eq_ignore_ascii_case(known))
 }
 
 #[cfg(test)]

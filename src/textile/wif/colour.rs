@@ -31,7 +31,7 @@ impl Table {
                     [Some(low), Some(high)] if low.is_finite() && high > low => {
                         table.range = Some((*low, *high));
                     }
-                    _ => reader.wrong(&entry, "a range such as 0,255"),
+                    _ => reader.unused(&entry, "is no range such as 0,255"),
                 }
             }
         }
@@ -53,7 +53,7 @@ impl Table {
                         outside.get_or_insert(*entry);
                     }
                 }
-                None => reader.wrong(entry, "a colour such as 255,0,0"),
+                None => reader.unused(entry, "is no colour such as 255,0,0"),
             }
         }
         if let Some(entry) = outside {

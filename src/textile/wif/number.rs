@@ -86,7 +86,8 @@ impl<'t> Reader<'_, 't> {
     /// it is told to be wrong.
     pub fn list(&mut self, entry: &Entry<'_>, what: &str) -> Option<Vec<u32>> {
         let mut found = Vec::new();
-        for part in number_part(entry.value).split(',').map(str::trim) {
+        let parts = number_part(entry.value).split(|c: char| c == ',' || c.is_whitespace());
+        for part in parts {
             match whole(part) {
                 _ if part.is_empty() => {}
                 Some(0) => {}
@@ -112,7 +113,7 @@ impl<'t> Reader<'_, 't> {
         };
         let number = pointed.parse().ok().filter(|number: &f64| number.is_finite());
         if number.is_none() {
-            self.wrong(entry, "a number");
+            self.unused(entry, "is no number; it is left out");
         }
         number
     }

@@ -64,7 +64,7 @@ fn what_programs_leave_out_or_put_in_is_read() {
     mended(&[("WEAVING", "-")], "", TWILL);
     mended(&[("CONTENTS", "THREADING=no"), ("WARP SPACING", ""), ("NOTES", "")], "", TWILL);
     mended(&[("WARP", "; ends\nThreads = 4 ; four\nColor=0")], "", TWILL);
-    mended(&[("THREADING", ";[4]abcd\n4=4\n1=0,1\n3=3,\n2= 2 ;x")], "", TWILL);
+    mended(&[("THREADING", ";[4]abcd\n4=4\n01=0 1\n3=3,\n2= 2 ;x")], "", TWILL);
     mended(&[("LIFTPLAN", "1=0\n2=")], "", TWILL);
     mended(
         &[("TIEUP", "-"), ("TREADLING", "-"), ("LIFTPLAN", "1=1,2,0\n3=3,4\n2=2,3\n4=1,4")],
@@ -90,6 +90,9 @@ fn what_is_mended_is_told() {
     mended(&[("WARP", "Threads=4\nThreads=4")], "[WARP] Threads: is given twice", TWILL);
     mended(&[("WARP", "Threads=4\nnonsense")], "[WARP] holds a line without `=`", TWILL);
     mended(&[("WARP", "Threads=4\nColor=3")], "[WARP] Color: colour 3 is named", TWILL);
+    mended(&[("COLOR PALETTE", "Range=x")], "[COLOR PALETTE] Range: is no range", TWILL);
+    mended(&[("COLOR TABLE", "1=0,0\n2=1,1,1")], "[COLOR TABLE] 1: is no colour", TWILL);
+    mended(&[("WARP", "Threads=4\nSpacing=wide")], "[WARP] Spacing: is no number", TWILL);
     mended(&[("WARP", "Threads=4\nUnits=ells\nSpacing=1")], "[WARP] Units: is no unit", TWILL);
     mended(&[("WEFT", "Threads=4\nSpacing=9000")], "[WEFT] Spacing: is no thread", TWILL);
     mended(&[("CONTENTS", "WARP COLORS=yes")], "[CONTENTS] WARP COLORS: is promised", TWILL);
@@ -125,7 +128,10 @@ fn what_nobody_could_weave_is_refused_with_section_and_key() {
         &[("COLOR TABLE", "1=0,0,0"), ("WEFT COLORS", "3=2")],
         "E0623 [WEFT COLORS] 3: there is no colour 2",
     );
-    refused(&[("COLOR TABLE", "1=0,0")], "E0622 [COLOR TABLE] 1: `0,0` is not a colour");
+    refused(
+        &[("COLOR TABLE", "1=0,0"), ("WARP COLORS", "1=1")],
+        "E0623 [WARP COLORS] 1: colour 1 is named",
+    );
     for text in ["", "GIF89a", "[NOTES]\n1=x", "garment x { }"] {
         let (rows, told) = rows(text);
         assert!(rows.is_none() && told[0].starts_with("E0625"), "{told:?}");
@@ -177,7 +183,7 @@ fn threads(count: usize) -> impl Strategy<Value = Threads> {
     let length = (1_000_u32..20_000_000).prop_map(|n| nanometres(f64::from(n) * 1e-9));
     let lengths = prop::collection::vec(length, count);
     (
-        prop::option::of(prop::collection::vec(colour, count)),
+        prop::collection::vec(colour, count).prop_map(Some),
         prop::option::of(lengths.clone()),
         prop::option::of(lengths),
     )
@@ -217,6 +223,21 @@ fn weavable(draft: &Draft) -> bool {
             Shedding::Treadled { tieup, treadling } => any(tieup) && any(treadling),
             Shedding::Lifted { plan } => any(plan),
         }
+}
+
+#[test]
+fn threads_without_colours_are_written_black_and_white() {
+    let plain = Draft::of_weave(&crate::textile::weave::Weave::plain());
+    let text = write(&plain);
+    assert!(text.contains("[WARP]\r\nThreads=2\r\nColor=1\r\nUnits=Centimeters\r\n"), "{text}");
+    assert!(text.contains("1=0,0,0\r\n2=255,255,255\r\n"), "{text}");
+    assert!(
+        text.contains("\r\nLIFTPLAN=false\r\n") && text.contains("[LIFTPLAN]\r\n1=1"),
+        "{text}"
+    );
+    let back = read(FileId(0), &text).0.unwrap().draft;
+    assert_eq!(back.shedding, plain.shedding);
+    assert_eq!(back.weft.colours, Some(vec![Colour([255; 4]); 2]));
 }
 
 proptest! {

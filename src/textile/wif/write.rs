@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Writes a draft as WIF 1.1: all that the format demands, the lift plan always, tie-up and
 /// treadling where the draft has treadles. Lines end as on the systems for which most weaving
 /// programs are written; letters beyond ASCII are UTF-8. [`read`](super::read) gives the same
-/// draft back.
+/// draft back; threads without colours come back black and white, for many readers want some.
 pub fn write(draft: &Draft) -> String {
     let mut sections: Vec<(String, String)> = Vec::new();
     let mut section = |name: &str, lines: Lines| {
@@ -43,13 +43,12 @@ pub fn write(draft: &Draft) -> String {
         let mut own = Lines::default();
         own.line("Threads", count);
         let colour = threads.colours.as_ref().and_then(|list| usual(list, |colour| colour.0));
-        if let Some(number) = colour.and_then(|colour| palette.number(colour)) {
+        let plain = if name == "WARP" { BLACK } else { WHITE };
+        if let Some(number) = palette.number(colour.unwrap_or(plain)) {
             own.line("Color", number);
         }
         let mut single: Vec<(&str, Lines)> = Vec::new();
-        if threads.spacing.is_some() || threads.thickness.is_some() {
-            own.line("Units", "Centimeters");
-        }
+        own.line("Units", "Centimeters");
         for (key, list) in [("Spacing", &threads.spacing), ("Thickness", &threads.thickness)] {
             let Some(list) = list else { continue };
             let base = usual(list, f64::to_bits);
@@ -91,8 +90,11 @@ pub fn write(draft: &Draft) -> String {
     head.line("Source Program", "darzi");
     head.line("Source Version", env!("CARGO_PKG_VERSION"));
     let mut contents = Lines::default();
+    let treadled = matches!(draft.shedding, Shedding::Treadled { .. });
     for (name, _) in &sections {
-        contents.line(name, "true");
+        // Tie-up and treadling count where there are both, and there are readers that fail where
+        // both are announced; those that look for a lift plan look for its section.
+        contents.line(name, !(treadled && name == "LIFTPLAN"));
     }
     let head = [("WIF".to_owned(), head.0), ("CONTENTS".to_owned(), contents.0)];
     let mut out = String::new();
@@ -102,6 +104,9 @@ pub fn write(draft: &Draft) -> String {
     }
     out
 }
+
+const BLACK: Colour = Colour([0, 0, 0, 255]);
+const WHITE: Colour = Colour([255, 255, 255, 255]);
 
 /// Lines of a section.
 #[derive(Default)]
@@ -134,12 +139,15 @@ fn lists(lists: &[Vec<u32>]) -> Lines {
     lines
 }
 
-/// The colours of threads that differ from the usual one.
+/// The colours of all threads, where not all have the usual one.
 fn colours(threads: &Threads, usual: Option<Colour>, palette: &Palette) -> Lines {
     let mut lines = Lines::default();
-    for (number, &colour) in (1..).zip(threads.colours.iter().flatten()) {
-        if let Some(index) = palette.number(colour).filter(|_| Some(colour) != usual) {
-            lines.line(number, index);
+    let list = threads.colours.iter().flatten();
+    if list.clone().any(|colour| Some(*colour) != usual) {
+        for (number, &colour) in (1..).zip(list) {
+            if let Some(index) = palette.number(colour) {
+                lines.line(number, index);
+            }
         }
     }
     lines
@@ -164,12 +172,13 @@ struct Palette {
 impl Palette {
     fn of(draft: &Draft) -> Palette {
         let mut palette = Palette { numbers: BTreeMap::new(), order: Vec::new() };
-        for colour in
-            [&draft.warp, &draft.weft].into_iter().flat_map(|t| t.colours.iter().flatten())
-        {
+        let of = |threads: &Threads, usual: Colour| {
+            threads.colours.clone().unwrap_or_else(|| vec![usual])
+        };
+        for colour in [of(&draft.warp, BLACK), of(&draft.weft, WHITE)].concat() {
             let next = palette.order.len() + 1;
             if *palette.numbers.entry(colour.0).or_insert(next) == next {
-                palette.order.push(*colour);
+                palette.order.push(colour);
             }
         }
         palette
@@ -179,15 +188,13 @@ impl Palette {
         self.numbers.get(&colour.0).copied()
     }
 
-    /// `[COLOR PALETTE]` and `[COLOR TABLE]`; many readers want them even without colours.
+    /// `[COLOR PALETTE]` and `[COLOR TABLE]`.
     fn lines(&self) -> (Lines, Lines) {
-        let black_and_white = [Colour([0, 0, 0, 255]), Colour([255, 255, 255, 255])];
-        let order = if self.order.is_empty() { &black_and_white[..] } else { &self.order };
         let (mut range, mut table) = (Lines::default(), Lines::default());
-        range.line("Entries", order.len());
+        range.line("Entries", self.order.len());
         range.line("Range", "0,255");
         range.line("Form", "RGB");
-        for (number, Colour([red, green, blue, _])) in (1..).zip(order) {
+        for (number, Colour([red, green, blue, _])) in (1..).zip(&self.order) {
             table.line(number, format!("{red},{green},{blue}"));
         }
         (range, table)
