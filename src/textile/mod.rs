@@ -17,6 +17,7 @@ pub mod objection;
 pub mod origin;
 pub mod paper;
 pub mod sett;
+pub mod twill;
 pub mod weave;
 pub mod wif;
 pub mod yarn;

@@ -98,6 +98,14 @@ fn weaves_are_made_of_weaves() {
     assert_eq!((brocade.ends(), brocade.picks()), (6, 6));
     let borders = weave("ground: twill_2_2   extra: warp   figure: |.#|#.|");
     assert_eq!((borders.ends(), borders.picks()), (8, 4));
+    let turned = weave(
+        "threading: 1..4, 1..4, 2, 1, 4, 3, 2, 1, 4, 3   tieup: [1, 2], [2, 3], [3, 4], [4, 1]   treadling: 1..4",
+    );
+    let backwards = weave("herringbone 2/2 S every 8");
+    assert_eq!(turned.ends(), backwards.ends());
+    assert_eq!(weave("herringbone 2/2 every 8").floats(), turned.floats());
+    assert_eq!((weave("point 2/2").ends(), weave("point 2/2 every 9").ends()), (6, 16));
+    assert_eq!(weave("broken 3/1").floats().warp_on_face, Some(3));
     assert_eq!(weave("honeycomb 8").floats().warp_on_face, Some(5));
 }
 

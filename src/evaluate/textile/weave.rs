@@ -9,15 +9,19 @@ use crate::evaluate::item::ItemId;
 use crate::syntax::tree::{BinaryOp, Expr, ExprKind, Item};
 use crate::textile::drawdown::{Cloth, Drawdown};
 use crate::textile::objection::falls_apart;
+use crate::textile::twill;
 use crate::textile::weave::{Weave, WeaveError};
 use crate::textile::yarn::Twist;
 
 /// The words that say what a weave is; a weave has one of them.
-const WAYS: [&str; 13] = [
+const WAYS: [&str; 16] = [
     "plain",
     "basket",
     "rib",
     "twill",
+    "herringbone",
+    "point",
+    "broken",
     "satin",
     "sateen",
     "honeycomb",
@@ -103,9 +107,15 @@ fn made<'t>(
                 Weave::sateen(count, step)
             }
         }
-        "twill" => {
-            let (runs, slant, step) = twill(ev, way)?;
-            Weave::twill(&runs, slant, step)
+        "twill" | "herringbone" | "point" | "broken" => {
+            let said = twill(ev, way)?;
+            let made = Weave::twill(&said.runs, said.slant, said.step);
+            made.and_then(|made| match (way.word.name, said.every) {
+                ("herringbone", every) => twill::herringbone(&made, every.unwrap_or(8)),
+                ("point", every) => twill::pointed(&made, every.unwrap_or(made.ends() as u32)),
+                ("broken", _) => twill::broken(&made),
+                _ => Ok(made),
+            })
         }
         "matrix" => {
             let keys = Keys::new(&[("1", true), ("#", true), ("0", false), (".", false)]);
@@ -145,66 +155,93 @@ pub(super) fn small<'t>(ev: &mut Evaluator<'t>, arg: Arg<'t>, least: i64) -> Opt
     u32::try_from(ev.whole_number(arg, least, most)?).ok()
 }
 
-/// `2/2 Z`, `2/1/1/2 S move 1`
-fn twill<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<(Vec<u32>, Twist, u32)> {
+/// What is said of a twill.
+struct Said {
+    runs: Vec<u32>,
+    slant: Twist,
+    step: u32,
+    /// Ends after which it turns.
+    every: Option<u32>,
+}
+
+/// `2/2 Z`, `2/1/1/2 S move 1`, `2/2 every 8`
+fn twill<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<Said> {
+    let of = way.word.name;
+    let turns = matches!(of, "herringbone" | "point");
+    let words = if turns { &["Z", "S", "move", "every"][..] } else { &["Z", "S", "move"] };
+    let usage = usage(of);
     let mut items = way.rest.iter();
     let Some(Item::Expr(runs)) = items.next() else {
         ev.tell(
-            Diagnostic::new("E0208", "`twill` must be given its runs")
+            Diagnostic::new("E0208", format!("`{of}` must be given its runs"))
                 .at(way.span, "missing here")
-                .help(USAGE),
+                .help(usage),
         );
         return None;
     };
-    let mut lengths = Vec::new();
+    let mut said = Said { runs: Vec::new(), slant: Twist::Z, step: 1, every: None };
     let mut parts = Vec::new();
     quotients(runs, &mut parts);
     for expr in parts {
-        lengths.push(small(ev, Arg { expr, scope: way.scope, of: "twill" }, 1)?);
+        said.runs.push(small(ev, Arg { expr, scope: way.scope, of }, 1)?);
     }
-    let mut slant = Twist::Z;
-    let mut step = 1;
     while let Some(item) = items.next() {
         let word = match item {
             Item::Expr(expr) => bare(expr).map(|name| name.text.as_str()),
             _ => None,
         };
-        match word {
-            Some("Z") => slant = Twist::Z,
-            Some("S") => slant = Twist::S,
-            Some("move") => match items.next() {
+        match word.and_then(|word| words.iter().find(|known| **known == word)) {
+            Some(&"Z") => said.slant = Twist::Z,
+            Some(&"S") => said.slant = Twist::S,
+            Some(&word) => match items.next() {
+                Some(Item::Expr(expr)) if word == "move" => {
+                    said.step = small(ev, Arg { expr, scope: way.scope, of: word }, 1)?;
+                }
                 Some(Item::Expr(expr)) => {
-                    step = small(ev, Arg { expr, scope: way.scope, of: "move" }, 1)?;
+                    said.every = Some(small(ev, Arg { expr, scope: way.scope, of: word }, 2)?);
                 }
                 _ => {
                     ev.tell(
-                        Diagnostic::new("E0208", "`move` must be given a number")
+                        Diagnostic::new("E0208", format!("`{word}` must be given a number"))
                             .at(way.span, "missing here")
-                            .help(USAGE),
+                            .help(usage),
                     );
                     return None;
                 }
             },
-            _ => {
+            None => {
                 if let Item::Expr(Expr { kind: ExprKind::Unread, .. }) = item {
                     return None;
                 }
                 let span = span_of(item);
                 let text = ev.snippet(span).to_owned();
-                let label = ev.meant(&text, ["Z", "S", "move"].into_iter());
+                let label = ev.meant(&text, words.iter().copied());
                 ev.tell(
-                    Diagnostic::new("E0203", format!("`{text}` is not a word of `twill`"))
+                    Diagnostic::new("E0203", format!("`{text}` is not a word of `{of}`"))
                         .at(span, label)
-                        .help(USAGE),
+                        .help(usage),
                 );
                 return None;
             }
         }
     }
-    Some((lengths, slant, step))
+    Some(said)
 }
 
+/// How a twill is written.
 const USAGE: &str = "twill UP/DOWN[/UP/DOWN …] [Z|S] [move NUMBER], such as `twill 2/2 Z`";
+
+/// How a twill of that word is written.
+fn usage(word: &str) -> &'static str {
+    match word {
+        "herringbone" => {
+            "herringbone UP/DOWN[/UP/DOWN …] [every NUMBER], such as `herringbone 2/2 every 8`"
+        }
+        "point" => "point UP/DOWN[/UP/DOWN …] [every NUMBER], such as `point 2/2`",
+        "broken" => "broken UP/DOWN[/UP/DOWN …], such as `broken 3/1`",
+        _ => USAGE,
+    }
+}
 
 /// The numbers of `a/b/c`, which the reader of values takes for divisions.
 fn quotients<'t>(expr: &'t Expr, out: &mut Vec<&'t Expr>) {
