@@ -31,10 +31,10 @@ fn draft(lifted: bool) -> String {
             let _ = write!(text, "{number}={}\r\n", value(number));
         }
     };
-    let scattered = |n: usize| (n * n * 31 + n * 17) % SHAFTS + 1;
+    let scattered = |n: usize| (n * 7919 + n / 5 * 31) % SHAFTS + 1;
     let half = |n: usize| {
         let shafts: Vec<String> =
-            (0..SHAFTS / 2).map(|k| ((n + k * (k + 3)) % SHAFTS + 1).to_string()).collect();
+            (0..SHAFTS / 2).map(|k| ((n + 2 * k) % SHAFTS + 1).to_string()).collect();
         shafts.join(",")
     };
     section("THREADING", THREADS, &|n| scattered(n).to_string());
@@ -65,7 +65,7 @@ fn count(bencher: Bencher) {
     let Ok(drawn) = draft.drawdown() else { return };
     bencher.bench(|| {
         let cloth = Cloth::new(drawn.clone());
-        let float = cloth.longest(System::Warp, Side::Face, true);
+        let float = cloth.longest(System::Warp).on(Side::Face, true);
         (float, Layers::of(&cloth).count())
     });
 }

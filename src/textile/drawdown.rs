@@ -159,47 +159,80 @@ impl Drawdown {
         }
     }
 
-    /// The longest stretch of equal crossings along any row, of warp up or of warp down; as the
-    /// rows stand, or closed to rings. The first of equally long ones; none where there is none.
-    fn longest_in_rows(
-        &self,
-        rows: impl Iterator<Item = usize>,
-        up: bool,
-        ring: bool,
-    ) -> Option<Float> {
-        let mut longest: Option<Float> = None;
-        for pick in rows {
-            let mut offer = |from: usize, length: usize| {
-                if length > longest.map_or(0, |float| float.length) {
-                    longest = Some(Float { thread: pick, from, length });
-                }
-            };
-            let (mut first, mut from, mut length) = (None, 0, 0);
-            let mut end = 0;
-            while end < self.ends {
-                let word = self.row(pick)[end / 64] >> (end % 64);
-                let word = if up { word } else { !word };
-                let room = (64 - end % 64).min(self.ends - end);
-                let same = (word.trailing_ones() as usize).min(room);
-                if length == 0 {
-                    from = end;
-                }
-                length += same;
+    /// The stretches of equal crossings along a row: the first end, how many, whether warp up.
+    fn stretches(&self, pick: usize) -> impl Iterator<Item = (usize, usize, bool)> {
+        let row = self.row(pick);
+        let ends = self.ends;
+        let mut end = 0;
+        std::iter::from_fn(move || {
+            if end >= ends {
+                return None;
+            }
+            let from = end;
+            let up = row[end / 64] >> (end % 64) & 1 == 1;
+            loop {
+                let word = row[end / 64] >> (end % 64);
+                let room = (64 - end % 64).min(ends - end);
+                let same = if up { word.trailing_ones() } else { word.trailing_zeros() };
+                let same = (same as usize).min(room);
                 end += same;
-                if same < room {
-                    offer(from, length);
-                    first.get_or_insert(length);
-                    length = 0;
-                    let word = word >> same;
-                    end += (word.trailing_zeros() as usize).min(room - same);
+                if same < room || end >= ends {
+                    return Some((from, end - from, up));
                 }
             }
-            match first {
-                Some(first) if ring && length > 0 => offer(from, length + first),
-                _ => offer(from, length),
+        })
+    }
+
+    /// The longest stretches along these rows.
+    fn longest(&self, rows: impl Iterator<Item = usize>) -> Stretches {
+        let mut longest = Stretches::default();
+        for pick in rows {
+            let mut first = None;
+            let mut last = None;
+            for (from, length, up) in self.stretches(pick) {
+                let float = Float { thread: pick, from, length };
+                longest.offer(up, false, float);
+                first.get_or_insert((up, float));
+                last = Some((up, float));
+                longest.offer(up, true, float);
+            }
+            if let (Some((up, first)), Some((same, last))) = (first, last) {
+                if up == same && first.from != last.from {
+                    longest.offer(up, true, Float { length: first.length + last.length, ..last });
+                }
             }
         }
         longest
+    }
+}
+
+/// The longest stretches of equal crossings, the first of equally long ones: warp down, warp up;
+/// as the rows stand, closed to rings.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stretches([[Option<Float>; 2]; 2]);
+
+impl Stretches {
+    fn offer(&mut self, up: bool, ring: bool, float: Float) {
+        let longest = &mut self.0[usize::from(up)][usize::from(ring)];
+        if longest.is_none_or(|longest| float.length > longest.length) {
+            *longest = Some(float);
+        }
+    }
+}
+
+/// The longest floats of a system of threads, on the face and on the back. None where no thread
+/// ever lies there.
+#[derive(Clone, Copy, Debug)]
+pub struct Longest {
+    stretches: Stretches,
+    on_top: bool,
+}
+
+impl Longest {
+    /// On that side; as the cloth stands, or `round` its repeat.
+    pub fn on(&self, side: Side, round: bool) -> Option<Float> {
+        let up = self.on_top == (side == Side::Face);
+        self.stretches.0[usize::from(up)][usize::from(round)]
     }
 }
 
@@ -226,24 +259,17 @@ impl Cloth {
         }
     }
 
-    /// The longest float of a system on a side, as the cloth stands or `round` its repeat, in
-    /// which case a float may go once about a thread and more.
-    pub fn longest(&self, system: System, side: Side, round: bool) -> Option<Float> {
-        let (rows, on_top) = self.threads(system);
-        rows.longest_in_rows(0..rows.picks(), on_top == (side == Side::Face), round)
+    /// The longest floats of a system.
+    pub fn longest(&self, system: System) -> Longest {
+        self.longest_bound(system, &BTreeSet::new())
     }
 
-    /// The longest float round the repeat among the threads that are bound, which those in
-    /// `loose` are not.
-    pub fn longest_bound(
-        &self,
-        system: System,
-        side: Side,
-        loose: &BTreeSet<usize>,
-    ) -> Option<Float> {
+    /// The longest floats among the threads of a system that are bound, which those in `loose`
+    /// are not.
+    pub fn longest_bound(&self, system: System, loose: &BTreeSet<usize>) -> Longest {
         let (rows, on_top) = self.threads(system);
         let bound = (0..rows.picks()).filter(|thread| !loose.contains(thread));
-        rows.longest_in_rows(bound, on_top == (side == Side::Face), true)
+        Longest { stretches: rows.longest(bound), on_top }
     }
 
     /// Threads of a system that never change sides, and the side on which they stay.
@@ -307,7 +333,7 @@ mod tests {
     #[test]
     fn a_satin_is_counted() {
         let cloth = Cloth::new(Drawdown::of_weave(&Weave::satin(8, 3).unwrap()));
-        let length = |system, side, round| cloth.longest(system, side, round).map(|f| f.length);
+        let length = |system, side, round| cloth.longest(system).on(side, round).map(|f| f.length);
         assert_eq!(length(System::Warp, Side::Face, true), Some(7));
         assert_eq!(length(System::Weft, Side::Back, true), Some(7));
         assert_eq!(length(System::Weft, Side::Face, false), Some(1));
@@ -343,7 +369,7 @@ mod tests {
             for ring in [false, true] {
                 let length = |system, side| {
                     let rows = match system { System::Warp => &columns, System::Weft => &rows };
-                    let float = cloth.longest(system, side, ring);
+                    let float = cloth.longest(system).on(side, ring);
                     if let Some(float) = float {
                         let row = &rows[float.thread];
                         let side = row[float.from];

@@ -173,9 +173,10 @@ fn long_floats(
         System::Weft => &draft.warp,
     };
     let loose: BTreeSet<usize> = cloth.never_bound(system).into_iter().map(|it| it.0).collect();
+    let longest = cloth.longest_bound(system, &loose);
     let (side, float) = [Side::Face, Side::Back]
         .into_iter()
-        .filter_map(|side| Some((side, cloth.longest_bound(system, side, &loose)?)))
+        .filter_map(|side| Some((side, longest.on(side, true)?)))
         .max_by_key(|(side, float)| (float.length, *side == Side::Face))?;
     let metres = float_length(&float, cloth, system, across);
     let long = match metres {

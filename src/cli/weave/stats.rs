@@ -1,7 +1,7 @@
 //! The figures of a draft, for programs and for people.
 
 use super::source::Source;
-use crate::textile::drawdown::{Drawdown, Side, System};
+use crate::textile::drawdown::{Drawdown, Longest, Side, System};
 use crate::textile::layers::Layers;
 use crate::units::{length, trimmed};
 use serde_json::{Value, json};
@@ -11,17 +11,23 @@ use std::fmt::Write;
 /// What there is to count of a draft.
 pub(super) struct Figures<'a> {
     source: &'a Source,
+    floats: [Longest; 2],
     layers: Layers,
 }
 
 impl<'a> Figures<'a> {
     pub fn of(source: &'a Source) -> Self {
-        Figures { source, layers: Layers::of(&source.worked) }
+        let floats = [System::Warp, System::Weft].map(|system| source.cloth.longest(system));
+        Figures { source, floats, layers: Layers::of(&source.worked) }
     }
 
     /// The longest float; 0 where the system never lies on that side.
     fn float(&self, system: System, side: Side, round: bool) -> usize {
-        self.source.cloth.longest(system, side, round).map_or(0, |float| float.length)
+        let longest = match system {
+            System::Warp => &self.floats[0],
+            System::Weft => &self.floats[1],
+        };
+        longest.on(side, round).map_or(0, |float| float.length)
     }
 
     /// One JSON object. Floats are counted within the draft as it stands; those of

@@ -122,6 +122,10 @@ impl<'t> Reader<'_, 't> {
 /// A whole number of no sign; `4.0` is one too.
 pub(super) fn whole(text: &str) -> Option<u64> {
     let text = text.trim();
+    // Nearly all are like this, and there may be millions.
+    if (1..=9).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Some(text.bytes().fold(0, |sum, byte| sum * 10 + u64::from(byte - b'0')));
+    }
     let text = match text.split_once('.') {
         Some((text, zeros)) if zeros.bytes().all(|byte| byte == b'0') => text,
         Some(_) => return None,
