@@ -86,13 +86,14 @@ impl Draft {
             .map(|end| weave.rows.iter().map(|row| row[end]).collect::<Vec<bool>>());
         let (threading, shafts) = alike(columns);
         let (treadling, treadles) = alike(weave.rows.iter().cloned());
+        let mut first = vec![0; shafts.len()];
+        for (end, shaft) in threading.iter().enumerate().rev() {
+            first[*shaft as usize - 1] = end;
+        }
         let tieup = treadles
             .iter()
             .map(|row: &Vec<bool>| {
-                let first = |shaft: u32| threading.iter().position(|on| *on == shaft);
-                (1..=shafts.len() as u32)
-                    .filter(|&shaft| first(shaft).is_some_and(|end| row[end]))
-                    .collect()
+                (1..).zip(&first).filter(|(_, end)| row[**end]).map(|(s, _)| s).collect()
             })
             .collect();
         let single = |numbers: Vec<u32>| numbers.into_iter().map(|n| vec![n]).collect();
@@ -173,18 +174,6 @@ impl Draft {
                 }
             }
         }
-    }
-
-    /// The lift plan: the shafts that each pick raises, whatever way the loom makes its sheds.
-    pub fn lift_plan(&self) -> Vec<Vec<u32>> {
-        let raised = |pick: usize| -> Vec<u32> {
-            let moved = self.moved(pick);
-            if self.rising {
-                return moved;
-            }
-            (1..=self.highest_shaft()).filter(|shaft| moved.binary_search(shaft).is_err()).collect()
-        };
-        (0..self.picks()).map(raised).collect()
     }
 
     /// The highest shaft that anything names, at least the number of shafts of the loom.
@@ -294,10 +283,6 @@ mod tests {
         draft.rising = false;
         let back = draft.drawdown().unwrap();
         assert_eq!(face.warp_up() + back.warp_up(), 25);
-        // The lift plan says what goes up either way.
-        let plan = draft.lift_plan();
-        let lifted = Draft { rising: true, shedding: Shedding::Lifted { plan }, ..draft };
-        assert_eq!(lifted.drawdown().unwrap(), back);
     }
 
     #[test]

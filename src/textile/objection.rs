@@ -108,7 +108,7 @@ fn on_no_shaft(draft: &Draft, place: &impl Fn(Spot) -> Span) -> Option<Diagnosti
     Some(
         Diagnostic::new("W0622", message)
             .at(place(Spot::End(first)), "here")
-            .help("such an end lies below every pick and is not bound; thread it, or leave it out"),
+            .help("nothing moves such an end, and it is not bound; thread it, or leave it out"),
     )
 }
 

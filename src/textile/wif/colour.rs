@@ -1,7 +1,7 @@
 //! Colours and the table they are looked up in.
 
 use super::ini::{Entry, Lines, number_part};
-use super::number::{Reader, whole};
+use super::number::{Reader, short, whole};
 use super::told::Told;
 use crate::textile::Colour;
 use std::collections::BTreeMap;
@@ -109,19 +109,16 @@ impl Table {
         if index == 0 {
             return None;
         }
-        let section = &reader.section.name;
+        let (section, key) = (&reader.section.name, short(entry.key));
         let (message, help) = if self.present {
             let most = self.colours.keys().next_back().copied().unwrap_or(0);
             (
-                format!("[{section}] {}: there is no colour {index}", entry.key),
+                format!("[{section}] {key}: there is no colour {index}"),
                 format!("[COLOR TABLE] goes to {most}"),
             )
         } else {
             (
-                format!(
-                    "[{section}] {}: colour {index} is named, but [COLOR TABLE] is missing",
-                    entry.key
-                ),
+                format!("[{section}] {key}: colour {index} is named, but [COLOR TABLE] is missing"),
                 "[COLOR TABLE] says what the colours are, such as `1=255,0,0`".to_owned(),
             )
         };

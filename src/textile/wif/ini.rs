@@ -4,6 +4,7 @@
 //! regard to case, and lines may end in CR, LF or both, mixed as programs leave them.
 
 use crate::diagnostic::{FileId, Span};
+use std::collections::BTreeMap;
 
 /// A key with its value.
 #[derive(Clone, Copy, Debug)]
@@ -44,10 +45,10 @@ pub(super) struct Section<'t> {
 pub(super) struct Lines<'t> {
     /// The sections, in the order of the file; one that is opened twice is one section.
     pub sections: Vec<Section<'t>>,
-    /// Further headers of sections that were open before.
-    pub reopened: Vec<(String, Span)>,
+    /// Further headers of sections that were open before, by the number of the section.
+    pub reopened: Vec<(usize, Span)>,
     /// Lines that are neither header nor comment nor key and value, and the section they stand in.
-    pub stray: Vec<(Option<String>, Span)>,
+    pub stray: Vec<(usize, Span)>,
     /// Headers without their closing bracket.
     pub unclosed: Vec<Span>,
 }
@@ -67,6 +68,7 @@ pub(super) fn number_part(value: &str) -> &str {
 /// Reads the lines of a text.
 pub(super) fn lines(file: FileId, text: &str) -> Lines<'_> {
     let mut found = Lines::default();
+    let mut numbers: BTreeMap<String, usize> = BTreeMap::new();
     let mut current: Option<usize> = None;
     let mut at = 0;
     for piece in text.split_inclusive(['\n', '\r']) {
@@ -88,25 +90,27 @@ pub(super) fn lines(file: FileId, text: &str) -> Lines<'_> {
             };
             let words: Vec<&str> = name.split_whitespace().collect();
             let name = words.join(" ").to_uppercase();
-            let known = found.sections.iter().position(|section| section.name == name);
-            if known.is_some() {
-                found.reopened.push((name.clone(), span));
-            }
-            current = Some(known.unwrap_or_else(|| {
-                found.sections.push(Section { name, span, entries: Vec::new() });
-                found.sections.len() - 1
-            }));
+            current = Some(match numbers.get(&name) {
+                Some(&known) => {
+                    found.reopened.push((known, span));
+                    known
+                }
+                None => {
+                    numbers.insert(name.clone(), found.sections.len());
+                    found.sections.push(Section { name, span, entries: Vec::new() });
+                    found.sections.len() - 1
+                }
+            });
             continue;
         }
-        let section = current.and_then(|number| found.sections.get_mut(number));
-        match (line.split_once('='), section) {
-            (Some((key, value)), Some(section)) => {
-                section.entries.push(Entry { key: key.trim(), value: value.trim(), span });
+        // What stands before the first section belongs to none.
+        let Some(number) = current else { continue };
+        match line.split_once('=') {
+            Some((key, value)) => {
+                let entry = Entry { key: key.trim(), value: value.trim(), span };
+                found.sections[number].entries.push(entry);
             }
-            (_, section) => {
-                let name = section.map(|section| section.name.clone());
-                found.stray.push((name, span));
-            }
+            None => found.stray.push((number, span)),
         }
     }
     found

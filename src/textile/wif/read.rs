@@ -424,8 +424,9 @@ fn compare(told: &mut Told, draft: &Draft, plan: &Rows) {
 /// Lines that are no lines of a weaving file, sections opened twice, sections that were promised.
 fn tell_lines(lines: &Lines<'_>, told: &mut Told) {
     let own = |name: &str| OWN.contains(&name);
+    let name_of = |number: usize| lines.sections.get(number).map_or("", |it| &it.name);
     for (section, span) in &lines.stray {
-        let name = section.as_deref().unwrap_or("");
+        let name = name_of(*section);
         if own(name) {
             let message = format!("[{name}] holds a line without `=`");
             told.say_with("W0621", name, *span, message, "left out", None);
@@ -435,7 +436,8 @@ fn tell_lines(lines: &Lines<'_>, told: &mut Told) {
         let message = "[ opens the name of a section that is not closed".to_owned();
         told.say_with("W0621", "", *span, message, "`]` is missing", None);
     }
-    for (name, span) in &lines.reopened {
+    for (section, span) in &lines.reopened {
+        let name = name_of(*section);
         if own(name) {
             let message = format!("[{name}] stands here again");
             told.say_with("W0621", name, *span, message, "read as one with the first", None);
