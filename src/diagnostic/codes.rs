@@ -116,7 +116,7 @@ pub const CODES: &[Code] = &[
     code("W0604", "threads closer than they are thick"),
     code("W0605", "a motif without figure"),
     code("W0621", "a weaving file that was mended"),
-    code("W0622", "ends that hang on no shaft"),
+    code("W0622", "ends or picks that take no part"),
     code("W0623", "a draft beyond the loom"),
     code("W0624", "an edge that does not hold the weft"),
     code("W0625", "a sett beyond what can be woven"),

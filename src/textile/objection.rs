@@ -63,13 +63,14 @@ pub fn beyond_loom(draft: &Draft, loom: &Loom, place: impl Fn(Spot) -> Span) -> 
     told
 }
 
-/// What a weaver would object to in the cloth of a draft: ends that hang on no shaft (W0622),
+/// What a weaver would object to in the cloth of a draft: ends and picks that take no part (W0622),
 /// threads that are never bound and cloth that falls apart (W0603), long floats (W0601), edges
 /// that do not hold the weft (W0624), threads too close (W0625). `cloth` is what
 /// [works](Draft::worked) of it.
 pub fn objections(draft: &Draft, cloth: &Cloth, place: impl Fn(Spot) -> Span) -> Vec<Diagnostic> {
     let mut told = Vec::new();
     told.extend(on_no_shaft(draft, &place));
+    told.extend(idle_picks(draft, &place));
     // That an end on no shaft is not bound either is said already.
     let idle = |spot: &Spot| match spot {
         Spot::End(end) => draft.threading.get(*end).is_some_and(Vec::is_empty),
@@ -159,6 +160,16 @@ pub fn falls_apart(cloth: &Cloth) -> Option<(Spot, String, &'static str)> {
             ),
             "stitch them: lift an end of the lower layer over a pick of the upper",
         ),
+    })
+}
+
+/// Picks behind the last that moves a shaft.
+fn idle_picks(draft: &Draft, place: &impl Fn(Spot) -> Span) -> Option<Diagnostic> {
+    let (picks, worked) = (draft.picks(), draft.worked().1);
+    (worked < picks).then(|| {
+        Diagnostic::new("W0622", format!("of {picks} picks the first {worked} move shafts"))
+            .at(place(Spot::Pick(worked)), "here")
+            .help("the others are left out where the cloth is looked at")
     })
 }
 
@@ -379,6 +390,9 @@ mod tests {
         let mut idle = cloth(&Weave::plain(), 2);
         idle.threading[1].clear();
         objected(&idle, "W0622", "end 2 hangs on no shaft");
+        let Shedding::Treadled { treadling, .. } = &mut idle.shedding else { panic!() };
+        treadling.resize(9, Vec::new());
+        objected(&idle, "W0622", "of 9 picks the first 4 move shafts");
         idle.threading.resize(1200, Vec::new());
         idle.threading[1].push(2);
         objected(&idle, "W0622", "of 1200 ends the first 4 hang on shafts");

@@ -74,6 +74,12 @@ fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
         return None;
     }
     tell_lines(lines, told);
+    if lines.section("WIF").is_none() {
+        missing_all_the_same(lines, told, "WIF", "a weaving file begins with it");
+    }
+    if lines.section("COLOR TABLE").is_some() && lines.section("COLOR PALETTE").is_none() {
+        missing_all_the_same(lines, told, "COLOR PALETTE", "colours are taken to go from 0 to 255");
+    }
     let table = Table::read(lines, told);
     let (warp, warp_at) = system(lines, told, &table, ["WARP", "end"]);
     let (weft, weft_at) = system(lines, told, &table, ["WEFT", "pick"]);
@@ -102,7 +108,7 @@ fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
     }
     let treadles = last_used(&tieup.lists).max(declared_treadles.unwrap_or(0) as usize);
     tieup.lists.resize(treadles, Vec::new());
-    let treadled = !tieup.is_empty() && !treadling.is_empty();
+    let mut treadled = !tieup.is_empty() && !treadling.is_empty();
     match (treadled, tieup.is_empty(), treadling.is_empty(), plan.is_empty()) {
         (true, ..) | (.., false) => {}
         (_, true, false, _) => missing(
@@ -121,8 +127,8 @@ fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
             "a draft needs [LIFTPLAN], or [TIEUP] and [TREADLING], with at least one shaft moved",
         ),
     }
-    if treadled {
-        used_treadles(told, &treadling, tieup.lists.len());
+    if treadled && !used_treadles(told, &treadling, tieup.lists.len(), plan.is_empty()) {
+        treadled = false;
     }
     if told.refused() {
         return None;
@@ -152,6 +158,9 @@ fn whole(lines: &Lines<'_>, told: &mut Told) -> Option<Read> {
         warp,
         weft,
     };
+    if lines.section("WEAVING").is_none() {
+        missing_all_the_same(lines, told, "WEAVING", "shafts and treadles are those that are used");
+    }
     draft.shafts = counted(told, &place.shafts, declared_shafts, draft.highest_shaft(), "shaft");
     // The header of a lift plan often names the treadles of another loom, or none.
     let highest = draft.highest_treadle();
@@ -332,6 +341,10 @@ fn gaps(list: Option<Vec<Option<f64>>>) -> Option<Vec<f64>> {
 fn units(reader: &mut Reader<'_, '_>) -> Option<f64> {
     const CENTIMETRE: f64 = 0.01;
     let Some(entry) = reader.entry("Units").filter(|entry| !entry.is_empty()) else {
+        let measured = ["Spacing", "Thickness"].iter().find_map(|key| reader.entry(key));
+        if let Some(entry) = measured.filter(|entry| !entry.is_empty()) {
+            reader.unused(&entry, "is taken to be in centimeters, for `Units` is missing");
+        }
         return Some(CENTIMETRE);
     };
     match ini::number_part(entry.value).to_ascii_lowercase().as_str() {
@@ -372,20 +385,30 @@ fn missing(lines: &Lines<'_>, told: &mut Told, name: &str, why: &str) {
     told.say_with("E0621", name, span, message, label, Some(why));
 }
 
-/// Treadles that are pressed but neither tied nor declared.
-fn used_treadles(told: &mut Told, treadling: &Rows, most: usize) {
+/// Tells a section that should be there and can be done without.
+fn missing_all_the_same(lines: &Lines<'_>, told: &mut Told, name: &str, what: &str) {
+    let span = lines.sections.first().map_or(Span::default(), |section| section.span);
+    let message = format!("[{name}] is missing");
+    told.say_with("W0621", name, span, message, "in this file", Some(what));
+}
+
+/// Whether all treadles that are pressed are tied or declared; told where not, as an error if
+/// there is no lift plan to go by instead.
+fn used_treadles(told: &mut Told, treadling: &Rows, most: usize, alone: bool) -> bool {
+    let mut sound = true;
     for (pick, (list, span)) in treadling.lists.iter().zip(&treadling.spans).enumerate() {
         if let Some(treadle) = list.iter().find(|&&treadle| treadle as usize > most) {
-            told.say_with(
-                "E0623",
-                "TREADLING",
-                *span,
-                format!("[TREADLING] {}: there is no treadle {treadle}", pick + 1),
-                "here",
-                Some(&format!("[TIEUP] and [WEAVING] know {most} treadles")),
-            );
+            sound = false;
+            let message = format!("[TREADLING] {}: there is no treadle {treadle}", pick + 1);
+            let help = format!("[TIEUP] and [WEAVING] know {most} treadles");
+            let (code, help) = match alone {
+                true => ("E0623", help.as_str()),
+                false => ("W0621", "the lift plan is used instead"),
+            };
+            told.say_with(code, "TREADLING", *span, message, "here", Some(help));
         }
     }
+    sound
 }
 
 /// How many shafts or treadles a draft is said to have; told where it uses more.

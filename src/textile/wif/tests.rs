@@ -61,7 +61,6 @@ const TWILL: &str = "1100\n0110\n0011\n1001";
 fn what_programs_leave_out_or_put_in_is_read() {
     mended(&[], "", TWILL);
     mended(&[("WEAVING", "Shafts=4\nTreadles=4")], "", TWILL);
-    mended(&[("WEAVING", "-")], "", TWILL);
     mended(&[("CONTENTS", "THREADING=no"), ("WARP SPACING", ""), ("NOTES", "")], "", TWILL);
     mended(&[("WARP", "; ends\nThreads = 4 ; four\nColor=0")], "", TWILL);
     mended(&[("THREADING", ";[4]abcd\n4=4\n01=0 1\n3=3,\n2= 2 ;x")], "", TWILL);
@@ -90,6 +89,15 @@ fn what_is_mended_is_told() {
     mended(&[("WARP", "Threads=4\nThreads=4")], "[WARP] Threads: is given twice", TWILL);
     mended(&[("WARP", "Threads=4\nnonsense")], "[WARP] holds a line without `=`", TWILL);
     mended(&[("WARP", "Threads=4\nColor=3")], "[WARP] Color: colour 3 is named", TWILL);
+    mended(&[("WEAVING", "-")], "[WEAVING] is missing", TWILL);
+    mended(&[("WIF", "-")], "[WIF] is missing", TWILL);
+    mended(&[("COLOR TABLE", "1=0,0,0")], "[COLOR PALETTE] is missing", TWILL);
+    mended(&[("WARP", "Threads=4\nSpacing=0.1")], "[WARP] Spacing: is taken to be in cent", TWILL);
+    mended(
+        &[("TREADLING", "1=9\n2=1"), ("LIFTPLAN", "1=1,2\n2=2,3\n3=3,4\n4=1,4")],
+        "[TREADLING] 1: there is no treadle 9",
+        TWILL,
+    );
     mended(&[("COLOR PALETTE", "Range=x")], "[COLOR PALETTE] Range: is no range", TWILL);
     mended(&[("COLOR TABLE", "1=0,0\n2=1,1,1")], "[COLOR TABLE] 1: is no colour", TWILL);
     mended(&[("WARP", "Threads=4\nSpacing=wide")], "[WARP] Spacing: is no number", TWILL);
