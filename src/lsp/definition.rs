@@ -59,8 +59,9 @@ fn used_file(
     number: usize,
 ) -> Option<Location> {
     let text = &*document.text.text;
-    let statement = outline.statements.iter().find(|s| s.tokens.contains(&number))?;
-    statement.head.filter(|head| outline.slice(text, *head) == "use")?;
+    let names_a_file = |head: usize| ["use", "wif"].contains(&outline.slice(text, head));
+    let around = outline.statements.iter().filter(|s| s.tokens.contains(&number));
+    around.filter_map(|statement| statement.head).find(|head| names_a_file(*head))?;
     let written = outline.slice(text, number).trim_matches('"');
     let path = crate::world::path::beside(&known.study.job.place.path, written).ok()?;
     let (file, ..) = known.study.desk.files().find(|(_, known, _)| *known == path)?;

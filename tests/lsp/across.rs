@@ -230,6 +230,23 @@ fn a_change_of_one_file_is_seen_in_those_that_use_it() {
 }
 
 #[test]
+fn a_weaving_file_is_read_and_its_mistakes_are_its_own() {
+    const TEXT: &str = "weave serge { wif \"drafts/serge.wif\" }\n";
+    let good = "[WIF]\n[WEAVING]\nShafts=2\nTreadles=2\n[WARP]\nThreads=2\n[WEFT]\nThreads=2\n\
+                [THREADING]\n1=1\n2=2\n[LIFTPLAN]\n1=1\n2=2\n";
+    let mut client = Client::start(&[("drafts/serge.wif", good), ("suit.garment", TEXT)]);
+    assert_eq!(client.open("suit.garment", TEXT), Vec::<Value>::new());
+    let (_, at) = marked("weave serge { wif \"drafts§/serge.wif\" }");
+    let found = client.at("textDocument/definition", "suit.garment", at);
+    assert_eq!(shown(&client, &found), ["drafts/serge.wif:0:0"]);
+    let cut = good.split("[LIFTPLAN]").next().unwrap();
+    let mut client = Client::start(&[("drafts/serge.wif", cut), ("suit.garment", TEXT)]);
+    client.open("suit.garment", TEXT);
+    let told = client.problems_of_any_version(&client.uri("drafts/serge.wif"));
+    assert_eq!(told[0]["code"], "E0621", "{told:#?}");
+}
+
+#[test]
 fn messages_of_a_file_that_is_not_open_are_told_too() {
     let mut client = Client::start(&[("a.garment", "let a = 1cm + 2deg\n")]);
     client.open("b.garment", "use \"a.garment\"::a\nlet b = a\n");

@@ -104,14 +104,18 @@ impl<'a> Figures<'a> {
             _ => "lift plan".to_owned(),
         };
         let _ = writeln!(out, "{:<12}{}, {way}, {shed}", "shafts", draft.shafts);
+        // What works of the cloth is what people mean by it.
+        let worked = &self.source.worked;
         let floats = |system| {
-            let [face, back] = [Side::Face, Side::Back].map(|side| self.float(system, side, true));
+            let longest = worked.longest(system);
+            let [face, back] = [Side::Face, Side::Back]
+                .map(|side| longest.on(side, true).map_or(0, |float| float.length));
             format!("{face} on the face, {back} on the back")
         };
         let _ = writeln!(out, "{:<12}warp {}", "floats", floats(System::Warp));
         let _ = writeln!(out, "{:<12}weft {}", "", floats(System::Weft));
-        let crossings = (draft.ends() * draft.picks()).max(1) as f64;
-        let share = self.source.cloth.picks.warp_up() as f64 / crossings;
+        let crossings = (worked.picks.ends() * worked.picks.picks()).max(1) as f64;
+        let share = worked.picks.warp_up() as f64 / crossings;
         let _ = writeln!(out, "{:<12}{}% of the face", "warp", trimmed(share * 100.0, 1));
         if self.layers.count() > 1 {
             let _ = writeln!(out, "{:<12}{}", "layers", self.layers.count());
