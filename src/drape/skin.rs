@@ -2,7 +2,7 @@
 //!
 //! Each knot keeps its distance from the nearest skin. Closer than the cloth's place on the skin
 //! a stiff spring along the normal pushes it away, taken implicitly; deeper than a margin it is
-//! lifted at once, so that nothing stays inside. Friction is Coulomb's with a memory: a knot that
+//! lifted at once as far as other cloth lets it, so that nothing stays inside. Friction is Coulomb's with a memory: a knot that
 //! touches is held to the point of the skin where it came to rest by a spring that gives
 //! 0.1 mm before it slips, so that cloth at rest does not creep.
 
@@ -237,19 +237,26 @@ impl Contact {
         }
     }
 
-    /// Lifts knots that are deeper than the margin allows out to it and takes their inward speed;
-    /// to be called with distances up to date.
-    pub fn lift(&mut self, cloth: &Cloth, x: &mut [Vector3<f64>], v: &mut [Vector3<f64>]) {
+    /// Takes the inward speed of knots that are deeper than the margin allows and gives their ways out
+    /// to it, none at all if none is; to be called with distances up to date.
+    pub fn ways_out(
+        &self,
+        cloth: &Cloth,
+        x: &[Vector3<f64>],
+        v: &mut [Vector3<f64>],
+    ) -> Option<Vec<Vector3<f64>>> {
         if !self.any {
-            return;
+            return None;
         }
+        let mut ways = None;
         for (i, touch) in self.touches.iter().enumerate() {
             if let Some(way) = touch.out(&x[i], Self::seat(cloth, i)) {
-                x[i] += way;
+                ways.get_or_insert_with(|| vec![Vector3::zeros(); x.len()])[i] = way;
                 let inward = v[i].dot(&touch.normal).min(0.0);
                 v[i] -= touch.normal * inward;
             }
         }
+        ways
     }
 }
 

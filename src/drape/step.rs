@@ -144,7 +144,6 @@ impl<'a> Workshop<'a> {
         let patches = Patches::new(compiled, &cloth);
         let system = System::new(layout, &mut cloth, &open, &holds.held);
         sewing.lay_out(&system.rim);
-        let mut v = vec![Vector3::zeros(); x.len()];
         let mut on_arm = vec![false; x.len()];
         // Cloth that is being sewn would be caught by its edges on its way past the body.
         if sewing.pairs.is_empty() {
@@ -152,16 +151,15 @@ impl<'a> Workshop<'a> {
                 on_arm[cloth.weld.knot[particle] as usize] |= is;
             }
         }
-        let mut contact = Contact::new(&cloth, skin, &x, &on_arm);
-        contact.lift(&cloth, &mut x, &mut v);
+        let contact = Contact::new(&cloth, skin, &x, &on_arm);
         Workshop {
             compiled,
             system,
             iterations: 0,
             last: vec![Vector3::zeros(); x.len()],
+            v: vec![Vector3::zeros(); x.len()],
             cloth,
             x,
-            v,
             sewing,
             patches,
             holds,
@@ -192,9 +190,29 @@ impl<'a> Workshop<'a> {
         self.v.fill(Vector3::zeros());
     }
 
-    /// Moves what is still under the skin out of it; see [`skin::clear`].
+    /// Moves what is still under the skin out of it, as far as other cloth lets it; see
+    /// [`skin::clear`].
     pub fn clear(&mut self) {
-        skin::clear(&self.cloth, self.skin, &mut self.x);
+        let mut cleared = self.x.clone();
+        skin::clear(&self.cloth, self.skin, &mut cleared);
+        self.shift(cleared.iter().zip(&self.x).map(|(to, from)| to - from).collect());
+    }
+
+    /// Lifts knots that are too deep in skin.
+    fn lift(&mut self) {
+        if let Some(ways) = self.contact.ways_out(&self.cloth, &self.x, &mut self.v) {
+            self.shift(ways);
+        }
+    }
+
+    /// Moves knots at once, as far as that brings no cloth through other cloth.
+    fn shift(&mut self, mut ways: Vec<Vector3<f64>>) {
+        if let Some(layers) = &mut self.layers {
+            layers.guard(&self.x, &mut ways);
+        }
+        for (x, way) in self.x.iter_mut().zip(&ways) {
+            *x += way;
+        }
     }
 
     /// Raises knots off sharp edges of the skin; see [`skin::raise`].
@@ -217,6 +235,11 @@ impl<'a> Workshop<'a> {
     /// # Errors
     /// [`Stuck`] if even a very short one gives none; the cloth is then as it was.
     pub fn step(&mut self, manner: &Manner) -> Result<Taken, Stuck> {
+        self.layers = self.layers.take().filter(|_| manner.layers);
+        if manner.layers && self.layers.is_none() {
+            self.layers = Some(Layers::new(&self.cloth, &self.sewing.pairs, &self.x));
+            self.lift();
+        }
         let mut shorter = *manner;
         for _ in 0..HALVINGS {
             if let Some(taken) = self.attempt(&shorter) {
@@ -239,10 +262,8 @@ impl<'a> Workshop<'a> {
         // Friction is judged by the last step's movement: gravity's own share is not slid yet.
         let mut slide: Vec<Vector3<f64>> = speeds.iter().map(|v| v * dt).collect();
         let mut touches = Touches::default();
-        let mut layers = self.layers.take().filter(|_| manner.layers);
-        if manner.layers {
-            let open = &self.sewing.pairs;
-            let layers = layers.get_or_insert_with(|| Layers::new(&self.cloth, open, &start));
+        let mut layers = self.layers.take();
+        if let Some(layers) = &mut layers {
             layers.make_room(manner.room);
             layers.look_for_tangles(&start);
             for (knot, pull, block) in layers.untangle(&self.cloth, &start) {
@@ -300,7 +321,7 @@ impl<'a> Workshop<'a> {
         }
         self.last = ahead;
         self.contact.look(&self.cloth, self.skin, &self.x);
-        self.contact.lift(&self.cloth, &mut self.x, &mut self.v);
+        self.lift();
         for v in &self.v {
             speed = speed.max(v.norm());
         }
