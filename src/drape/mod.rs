@@ -13,6 +13,7 @@ pub mod elastic;
 pub mod gather;
 pub mod grid;
 pub mod hold;
+pub mod iron;
 pub mod ladder;
 pub mod lay;
 pub mod layers;
@@ -149,15 +150,18 @@ fn sew_up<'a>(
     let compiled = shop.compiled();
     let course = schedule::sew(&mut shop, gap, in_turn, true, progress);
     let open = course.is_ok_and(|c| !c.reached).then(|| shop.sewing.gap(&shop.x));
-    let places = shop.positions();
+    let closed = shop.positions();
     let seams = compiled.seams.iter().flat_map(|s| s.pairs.iter().copied());
     let weld = Weld::new(compiled.particles.len(), seams);
+    let ironed = iron::iron(compiled, (surfaces, skin), &weld, closed.clone());
+    let (places, ironing) = ironed.unwrap_or((closed, 0));
     let mut shop = Workshop::new(compiled, surfaces, skin, weld, &places);
-    // Cloth that cuts itself already smooths out better without layers in the way.
+    // Cloth that still cuts itself smooths out better without layers in the way.
     let apart = crossing::count(compiled, &places) == 0;
     let pressed = schedule::press(&mut shop, apart);
-    let course = course
-        .and_then(|course| pressed.map(|p| Course { steps: course.steps + p.steps, ..course }));
+    let course = course.and_then(|course| {
+        pressed.map(|p| Course { steps: course.steps + ironing + p.steps, ..course })
+    });
     let cuts = crossing::count(compiled, &shop.positions());
     SewnUp { shop, course, open, cuts }
 }

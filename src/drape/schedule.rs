@@ -41,6 +41,9 @@ const STALLED: f64 = 10.0;
 const PRESSING_STEPS: usize = 90;
 const PRESSED: f64 = 0.01;
 
+/// Most steps to smooth stiff cloth out.
+const SMOOTHING_STEPS: usize = 30;
+
 /// Time for which falling is left to itself, s, so that folds form as they would.
 const FREE: f64 = 0.8;
 
@@ -132,8 +135,20 @@ fn draw_together(
 /// # Errors
 /// [`Stuck`] from the step.
 pub fn press(shop: &mut Workshop<'_>, layers: bool) -> Result<Course, Stuck> {
+    ease(shop, layers, PRESSING_STEPS)
+}
+
+/// Lets stiff cloth open out, through itself where it must.
+///
+/// # Errors
+/// [`Stuck`] from the step.
+pub fn smooth(shop: &mut Workshop<'_>) -> Result<Course, Stuck> {
+    ease(shop, false, SMOOTHING_STEPS)
+}
+
+fn ease(shop: &mut Workshop<'_>, layers: bool, most: usize) -> Result<Course, Stuck> {
     let mut course = Course::default();
-    while course.steps < PRESSING_STEPS {
+    while course.steps < most {
         let taken = shop.step(&Manner {
             dt: 1.0 / 30.0,
             gravity: 0.0,
