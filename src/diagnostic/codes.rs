@@ -88,6 +88,13 @@ pub const CODES: &[Code] = &[
     code("E0623", "a treadle or colour that a weaving file does not have"),
     code("E0624", "a draft that is too large"),
     code("E0625", "a text that is no weaving file"),
+    code("E0631", "a text that is no knitout"),
+    code("E0632", "carriers that a knitout program does not say"),
+    code("E0633", "an operation of knitout that cannot be read"),
+    code("E0634", "a carrier that the machine does not have"),
+    code("E0635", "a carrier that is not in action, or is already"),
+    code("E0636", "needles that do not face each other"),
+    code("E0637", "a slider that is to make a loop"),
     code("E0701", "a layout of a sari that does not exist"),
     code("E0702", "bands that do not fill their part"),
     code("E0703", "not enough cloth for this way of wearing"),
@@ -120,6 +127,9 @@ pub const CODES: &[Code] = &[
     code("W0623", "a draft beyond the loom"),
     code("W0624", "an edge that does not hold the weft"),
     code("W0625", "a sett beyond what can be woven"),
+    code("W0631", "knitout that departs from its format"),
+    code("W0632", "work on a needle without loops"),
+    code("W0633", "a yarn left in action"),
     code("W0703", "much more cloth than this way of wearing needs"),
 ];
 

@@ -2,8 +2,8 @@
 
 use super::ini::{Entry, Lines, number_part};
 use super::number::{Reader, short, whole};
-use super::told::Told;
 use crate::textile::Colour;
+use crate::textile::told::Told;
 use std::collections::BTreeMap;
 
 /// The colours of a file by their numbers.

@@ -10,7 +10,6 @@ mod colour;
 mod ini;
 mod number;
 mod read;
-mod told;
 mod write;
 
 pub use read::{Place, Read, read};

@@ -2,7 +2,7 @@
 
 use super::bearable;
 use super::ini::{Entry, Section, number_part};
-use super::told::Told;
+use crate::textile::told::Told;
 
 /// A section while its values are read.
 pub(super) struct Reader<'a, 't> {

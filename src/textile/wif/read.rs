@@ -4,10 +4,10 @@ use super::colour::Table;
 use super::ini::{self, Lines, Section};
 use super::nanometres;
 use super::number::Reader;
-use super::told::Told;
 use crate::diagnostic::{Diagnostic, FileId, Span};
 use crate::textile::Colour;
 use crate::textile::draft::{Draft, Shedding, Threads};
+use crate::textile::told::Told;
 
 /// What was read.
 #[derive(Clone, Debug)]
