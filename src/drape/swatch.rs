@@ -21,12 +21,7 @@ pub fn fabric(bending: f64) -> Fabric {
         colour: Colour([200, 200, 200, 255]),
         diameter: 0.2e-3,
     };
-    let knit = Knit {
-        name: "plain".to_owned(),
-        rows: vec![vec![Stitch::Face]],
-        wales: 1000.0,
-        courses: 1000.0,
-    };
+    let knit = Knit::of_loops("plain", vec![vec![Stitch::Face]], 1000.0, 1000.0).unwrap();
     Fabric {
         name: "cloth".to_owned(),
         structure: Structure::Knitted { knit, yarn },

@@ -1,16 +1,20 @@
-//! Weaving files that a text names with `wif`, read together with the text.
+//! Files of other programs that a text names (`wif`, `knitscape`), read together with the text.
 
 use super::Evaluator;
+use super::fields::Phrase;
 use crate::diagnostic::{Diagnostic, FileId, Span};
 use crate::syntax::tree::{Expr, ExprKind, File, Item, Statement, StatementKind};
 use crate::world::{World, path::beside};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Weaving files by the places where their paths are written.
+/// The words that name such files.
+pub(crate) const NAMING: [&str; 2] = ["wif", "knitscape"];
+
+/// Files by the places where their paths are written.
 pub(super) type Drafts = BTreeMap<Span, (FileId, Arc<str>)>;
 
-/// Reads the weaving files of a text; what cannot be read is told.
+/// Reads the files that a text names so; what cannot be read is told.
 pub(super) fn drafts(
     world: &mut dyn World,
     path: &str,
@@ -23,9 +27,8 @@ pub(super) fn drafts(
     while let Some(statement) = waiting.pop() {
         let blocks = match &statement.kind {
             StatementKind::Line { word, phrase, block } => {
-                if let ("wif", [Item::Expr(Expr { span, kind: ExprKind::Text(named) })]) =
-                    (word.text.as_str(), phrase.as_slice())
-                {
+                let named = NAMING.contains(&word.text.as_str()).then_some(phrase.as_slice());
+                if let Some([Item::Expr(Expr { span, kind: ExprKind::Text(named) })]) = named {
                     match beside(path, named).and_then(|wanted| world.open(&wanted)) {
                         Ok(id) => {
                             let text = texts.entry(id).or_insert_with(|| world.text(id).into());
@@ -47,8 +50,22 @@ pub(super) fn drafts(
 }
 
 impl<'t> Evaluator<'t> {
-    /// The weaving file whose path stands there, and its text.
-    pub(super) fn weaving_file(&self, at: Span) -> Option<(FileId, &'t str)> {
+    /// The file that a phrase of [`NAMING`] names, and its text; told where it names none. That a
+    /// file cannot be read is told already.
+    pub(super) fn file_of(&mut self, phrase: &Phrase<'t>) -> Option<(FileId, &'t str)> {
+        let path = phrase.arg(0)?.expr;
+        let found = self.named_file(path.span);
+        if found.is_none() && !matches!(path.kind, ExprKind::Text(_) | ExprKind::Unread) {
+            let word = phrase.word.name;
+            let told = Diagnostic::new("E0304", format!("`{word}` wants the path of a file"))
+                .at(path.span, "not a text in quotation marks");
+            self.tell(told.help(phrase.word.help));
+        }
+        found
+    }
+
+    /// The file of another program whose path stands there, and its text.
+    fn named_file(&self, at: Span) -> Option<(FileId, &'t str)> {
         let file = self.files.iter().find(|file| file.id == at.file)?;
         file.drafts.get(&at).map(|(id, text)| (*id, &**text))
     }

@@ -47,6 +47,13 @@ impl<'t> Evaluator<'t> {
         if self.step(bulk as u64 / 8, span) { value } else { Value::Poison }
     }
 
+    /// Whether a name stands for anything, here or in the library.
+    pub fn knows(&self, name: &str, scope: ScopeId) -> bool {
+        let library =
+            |id: &ScopeId| self.scopes.get(id.0).is_some_and(|it| it.names.contains_key(name));
+        self.find(scope, name).is_some() || self.libraries.values().any(library)
+    }
+
     /// As [`Self::eval`]; a name that nobody declared is looked up in these library modules.
     pub fn eval_with(&mut self, arg: Arg<'t>, libraries: &[&str]) -> Value {
         let Some(name) = bare(arg.expr) else { return self.eval(arg.expr, arg.scope) };

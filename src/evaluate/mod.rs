@@ -11,7 +11,7 @@ pub mod catalogue;
 mod choice;
 mod cord;
 mod declaration;
-mod drafts;
+pub(crate) mod drafts;
 mod drape;
 mod expression;
 pub mod facts;

@@ -59,7 +59,10 @@ fn used_file(
     number: usize,
 ) -> Option<Location> {
     let text = &*document.text.text;
-    let names_a_file = |head: usize| ["use", "wif"].contains(&outline.slice(text, head));
+    let names_a_file = |head: usize| {
+        let word = outline.slice(text, head);
+        word == "use" || crate::evaluate::drafts::NAMING.contains(&word)
+    };
     let around = outline.statements.iter().filter(|s| s.tokens.contains(&number));
     around.filter_map(|statement| statement.head).find(|head| names_a_file(*head))?;
     let written = outline.slice(text, number).trim_matches('"');

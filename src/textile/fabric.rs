@@ -189,12 +189,7 @@ mod tests {
 
     #[test]
     fn a_double_knitting_jersey_weighs_about_320_grams() {
-        let knit = Knit {
-            name: "stocking".into(),
-            rows: vec![vec![Stitch::Face]],
-            wales: 220.0,
-            courses: 300.0,
-        };
+        let knit = Knit::of_loops("stocking", vec![vec![Stitch::Face]], 220.0, 300.0).unwrap();
         let jersey = Structure::Knitted { knit, yarn: yarn(250.0, Fibre::Wool) };
         // 66 000 loops of 18.1 mm: 1194 m of 250 tex.
         assert!((jersey.mass() - 0.2985).abs() < 1e-3, "{}", jersey.mass());

@@ -62,7 +62,7 @@ fn woven(name: &str, weave: Weave, warp: (Yarn, f64), weft: (Yarn, f64)) -> Fabr
 fn knitted(name: &str, chart: &[&str], gauge: [f64; 2], yarn: Yarn) -> Fabric {
     let stitch = |c| if c == '.' { Stitch::Face } else { Stitch::Back };
     let rows = chart.iter().rev().map(|row| row.chars().map(stitch).collect()).collect();
-    let knit = Knit::chart(name, rows, 10.0 * gauge[0], 10.0 * gauge[1]).unwrap();
+    let knit = Knit::of_loops(name, rows, 10.0 * gauge[0], 10.0 * gauge[1]).unwrap();
     fabric(name, Structure::Knitted { knit, yarn }, Finish::Wool)
 }
 

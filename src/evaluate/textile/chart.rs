@@ -69,14 +69,25 @@ pub(super) fn unknown_meaning(ev: &mut Evaluator<'_>, line: &Phrase<'_>, known: 
     );
 }
 
-/// The cells of a drawing, bottom row first. Rows of unequal length (E0601), unknown signs
-/// (E0602) and drawings without cells are told.
+/// The cells of a drawing, bottom row first; see [`rows`].
 pub(super) fn cells<T: Copy>(
     ev: &mut Evaluator<'_>,
     phrase: &Phrase<'_>,
     keys: &Keys<T>,
     known: &str,
 ) -> Option<Vec<Vec<T>>> {
+    let rows = rows(ev, phrase, keys, known)?;
+    Some(rows.into_iter().map(|(cells, _)| cells).collect())
+}
+
+/// The cells of a drawing with the places of its rows, bottom row first. Rows of unequal length (E0601), unknown signs
+/// (E0602) and drawings without cells are told.
+pub(super) fn rows<T: Copy>(
+    ev: &mut Evaluator<'_>,
+    phrase: &Phrase<'_>,
+    keys: &Keys<T>,
+    known: &str,
+) -> Option<Vec<(Vec<T>, Span)>> {
     let mut rows: Vec<(Vec<T>, &Row)> = Vec::new();
     let mut good = true;
     for row in phrase.drawing {
@@ -129,7 +140,7 @@ pub(super) fn cells<T: Copy>(
             );
         }
     }
-    good.then(|| rows.into_iter().rev().map(|(cells, _)| cells).collect())
+    good.then(|| rows.into_iter().rev().map(|(cells, row)| (cells, row.span)).collect())
 }
 
 /// The cells of a mask, bottom row first: true for cloth.

@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Arg, Fields, Phrase};
 use crate::evaluate::value::Value;
-use crate::syntax::tree::{ExprKind, Item};
+use crate::syntax::tree::Item;
 use crate::textile::weave::{Weave, WeaveError};
 use crate::textile::wif;
 use std::collections::BTreeSet;
@@ -83,15 +83,7 @@ pub(super) fn of_file<'t>(
     ev: &mut Evaluator<'t>,
     way: &Phrase<'t>,
 ) -> Option<Result<Weave, WeaveError>> {
-    let path = way.arg(0)?.expr;
-    let Some((file, text)) = ev.weaving_file(path.span) else {
-        if !matches!(path.kind, ExprKind::Text(_) | ExprKind::Unread) {
-            let told = Diagnostic::new("E0304", "`wif` wants the path of a file")
-                .at(path.span, "not a text in quotation marks");
-            ev.tell(told.help("such as `wif \"serge.wif\"`"));
-        }
-        return None;
-    };
+    let (file, text) = ev.file_of(way)?;
     let (found, told) = wif::read(file, text);
     told.into_iter().for_each(|told| ev.tell(told));
     let draft = found?.draft;

@@ -178,8 +178,8 @@ fn charts_are_read_from_the_bottom_and_by_their_longest_keys() {
     let Made::Knit(knit) = sound("knit k { chart: |..--|....|   gauge: 22 x 30 per 10cm }") else {
         panic!("a knit")
     };
-    assert_eq!(knit.rows[0], [Stitch::Face; 4]);
-    assert_eq!(knit.rows[1][2], Stitch::Back);
+    assert_eq!(knit.loops()[0], [Stitch::Face; 4]);
+    assert_eq!(knit.loops()[1][2], Stitch::Back);
     near(knit.wales, 220.0);
     near(knit.courses, 300.0);
     let Made::Motif(motif) = sound(

@@ -244,7 +244,7 @@ fn usage(word: &str) -> &'static str {
 }
 
 /// The numbers of `a/b/c`, which the reader of values takes for divisions.
-fn quotients<'t>(expr: &'t Expr, out: &mut Vec<&'t Expr>) {
+pub(super) fn quotients<'t>(expr: &'t Expr, out: &mut Vec<&'t Expr>) {
     match &expr.kind {
         ExprKind::Binary { op: BinaryOp::Over, left, right, .. } => {
             quotients(left, out);

@@ -158,10 +158,14 @@ pub(super) const TABLES: &[Vocabulary] = &[
     Vocabulary {
         kind: Kind::Knit,
         words: &[
-            property("chart", "", "rows of loops as seen on the face"),
+            property("chart", "", "rows of stitches as seen on the face"),
+            property("written", "", "rows in words: `|row 1: k2, *p1, k1; repeat from *|`"),
+            action("knitscape", "PATH", "a chart of KnitScape: `knitscape \"lace.json\"`"),
+            property("stitches", "NUMBER", "stitches cast on, where the rows do not say it"),
             property("gauge", "NUMBER x NUMBER per LENGTH", "wales x courses in a length"),
-            property("worked", "flat|round", "how it is worked =flat"),
+            property("worked", "flat|round", "in rows to and fro, or in the round =flat"),
             property("face", "front|back", "which side the chart shows =front"),
+            property("colors", "stranded|intarsia", "how several colours are carried =stranded"),
             opening("legend", "", Kind::Legend, "what the keys of the chart are"),
         ],
         rows: None,

@@ -7,6 +7,7 @@
 use super::noise;
 use super::strand::{Node, Strand};
 use super::tile::{Grid, Look};
+use crate::textile::Colour;
 use crate::textile::knit::{Knit, Stitch};
 use crate::textile::yarn::{Fibre, Yarn};
 use std::f32::consts::PI;
@@ -16,9 +17,26 @@ const SWING: f32 = 1.5;
 /// Half the height of a loop over the distance of courses.
 const RISE: f32 = 4.0 / 4.5;
 
-/// The look of this yarn over the `wales` of a tile.
-pub fn look(knit: &Knit, yarn: &Yarn, wales: usize) -> Look {
-    Look::of(yarn, yarn.colour, knit.loop_length() * wales as f64)
+/// The looks of the yarns over the `wales` of a tile, one for each colour of the chart in the order
+/// of its [palette](crate::textile::knit::Chart::palette); cells without a colour have the yarn's.
+pub fn looks(knit: &Knit, yarn: &Yarn, wales: usize) -> Vec<Look> {
+    let length = knit.loop_length() * wales as f64;
+    let palette = colours(knit);
+    palette.iter().map(|it| Look::of(yarn, it.unwrap_or(yarn.colour), length)).collect()
+}
+
+/// The colours of the cells, those that are never worked too.
+fn colours(knit: &Knit) -> Vec<Option<Colour>> {
+    let mut palette = knit.chart.palette();
+    for row in 0..knit.height() {
+        for column in 0..knit.width() {
+            let colour = knit.chart.colour(column, row);
+            if !palette.contains(&colour) {
+                palette.push(colour);
+            }
+        }
+    }
+    palette
 }
 
 /// Width of the yarn over the distance of wales: as thick as it is, but neither so thin that the
@@ -27,8 +45,15 @@ pub fn filled(knit: &Knit, yarn: &Yarn) -> f64 {
     (1.6 * yarn.diameter * knit.wales).clamp(0.33, 0.42)
 }
 
-/// The strands of a tile of `stitches` wales and courses.
-pub fn strands(knit: &Knit, yarn: &Yarn, stitches: [usize; 2], grid: &Grid) -> Vec<Strand> {
+/// The strands of a tile of `stitches` wales and courses: the stretches of one colour of each
+/// course. `seen` are the loops of the side that is drawn.
+pub fn strands(
+    knit: &Knit,
+    seen: &[Vec<Stitch>],
+    yarn: &Yarn,
+    stitches: [usize; 2],
+    grid: &Grid,
+) -> Vec<Strand> {
     let [wales, courses] = stitches;
     let wale = grid.width as f32 / wales as f32;
     let course = grid.height as f32 / courses as f32;
@@ -38,33 +63,55 @@ pub fn strands(knit: &Knit, yarn: &Yarn, stitches: [usize; 2], grid: &Grid) -> V
         Fibre::Wool | Fibre::Linen | Fibre::Jute => 1.0,
         _ => 0.6,
     };
-    let relief = Relief::of(knit);
+    let relief = Relief::of(seen);
+    let palette = colours(knit);
     (0..courses)
-        .map(|row| {
-            let loops = Loops { knit, wale, course, row, half, uneven, stitches };
-            let mut nodes: Vec<Node> = Vec::with_capacity(wales * parts + 1);
+        .flat_map(|row| {
+            let loops = Loops { seen, wale, course, row, half, uneven, stitches };
+            let number = |wale: usize| {
+                let colour = knit.chart.colour(wale % knit.width(), row % knit.height());
+                palette.iter().position(|known| *known == colour).unwrap_or(0)
+            };
+            let mut strands: Vec<Strand> = Vec::new();
             let mut along = 0.0;
+            let mut last: Option<Node> = None;
             for n in 0..=wales * parts {
                 let t = (n % parts) as f32 / parts as f32 * 2.0 * PI - PI;
                 let mut at = loops.at((n / parts) as i64, t);
                 at[2] += wale * relief.at(n as f32 / parts as f32 - 0.5, row);
-                if let Some(last) = nodes.last() {
+                if let Some(last) = last {
                     let d = [0, 1, 2].map(|axis| at[axis] - last.at[axis]);
                     along += (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
                 }
                 let share = n as f32 / (wales * parts) as f32;
                 let swell =
                     noise::line(77 ^ ((row as u32) << 8), share * wales as f32, wales as u32);
-                nodes.push(Node { at, half: half * (1.0 + 0.05 * uneven * swell), along });
+                let node = Node { at, half: half * (1.0 + 0.05 * uneven * swell), along };
+                last = Some(node);
+                let within = n / parts < wales;
+                if let Some(strand) = strands.last_mut() {
+                    strand.nodes.push(node);
+                    let yarn = if within { number(n / parts) } else { strand.yarn };
+                    if strand.yarn == yarn {
+                        continue;
+                    }
+                }
+                // A yarn of another colour takes over at the foot where the two loops meet.
+                if within {
+                    let yarn = number(n / parts);
+                    let nodes = vec![node];
+                    strands.push(Strand { nodes, flatness: 0.8, yarn, length: 0.0 });
+                }
             }
-            Strand { nodes, flatness: 0.8, yarn: 0 }
+            strands.iter_mut().for_each(|strand| strand.length = along);
+            strands
         })
         .collect()
 }
 
 /// The loops of one course.
 struct Loops<'a> {
-    knit: &'a Knit,
+    seen: &'a [Vec<Stitch>],
     wale: f32,
     course: f32,
     row: usize,
@@ -77,10 +124,7 @@ impl Loops<'_> {
     /// 1 where the loop in this wale, `up` courses above this one, is a face loop, −1 else.
     fn side(&self, wale: i64, up: usize) -> f32 {
         let wale = wale.rem_euclid(self.stitches[0] as i64) as usize;
-        match self.knit.stitch(wale, (self.row + up) % self.stitches[1]) {
-            Stitch::Face => 1.0,
-            Stitch::Back => -1.0,
-        }
+        side(self.seen, wale, (self.row + up) % self.stitches[1])
     }
 
     /// A point of the loop in wale `wale` (which may be the image of the first in the next
@@ -108,6 +152,15 @@ impl Loops<'_> {
     }
 }
 
+/// 1 where this wale and course, counted round the repeat, show a face loop, −1 else.
+fn side(seen: &[Vec<Stitch>], wale: usize, course: usize) -> f32 {
+    let row = &seen[course % seen.len()];
+    match row[wale % row.len()] {
+        Stitch::Face => 1.0,
+        Stitch::Back => -1.0,
+    }
+}
+
 /// How far the cloth itself comes forward, in wale widths: knit wales stand out beside purl
 /// wales, purl courses beside knit courses.
 struct Relief {
@@ -115,13 +168,10 @@ struct Relief {
 }
 
 impl Relief {
-    fn of(knit: &Knit) -> Relief {
-        let (width, height) = (knit.width() as i64, knit.height() as i64);
-        let side = |wale: i64, row: i64| match knit
-            .stitch(wale.rem_euclid(width) as usize, row.rem_euclid(height) as usize)
-        {
-            Stitch::Face => 1.0f32,
-            Stitch::Back => -1.0,
+    fn of(seen: &[Vec<Stitch>]) -> Relief {
+        let (width, height) = (seen[0].len() as i64, seen.len() as i64);
+        let side = |wale: i64, row: i64| {
+            side(seen, wale.rem_euclid(width) as usize, row.rem_euclid(height) as usize)
         };
         const REACH: i64 = 3;
         let mean = |wale: i64, row: i64, step: [i64; 2]| {

@@ -89,15 +89,12 @@ impl Repeat {
                 draw(&strands, &yarns, grid, shading)
             }
             Structure::Knitted { knit, yarn } => {
-                let turned;
-                let knit = if back {
-                    turned = knit.turned();
-                    &turned
-                } else {
-                    knit
-                };
-                let yarns: [Look; 1] = [knitted::look(knit, yarn, self.threads[0])];
-                let strands = knitted::strands(knit, yarn, self.threads, &grid);
+                let mut loops = knit.loops();
+                if back {
+                    loops.iter_mut().flatten().for_each(|stitch| *stitch = stitch.turned());
+                }
+                let yarns: Vec<Look> = knitted::looks(knit, yarn, self.threads[0]);
+                let strands = knitted::strands(knit, &loops, yarn, self.threads, &grid);
                 let shading = Shading {
                     thread: 0.5 * pitch[0],
                     relief: relief(fabric.finish),

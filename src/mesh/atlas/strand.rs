@@ -27,6 +27,14 @@ pub struct Strand {
     pub flatness: f32,
     /// Which of the cloth's yarns it is.
     pub yarn: usize,
+    /// Length of yarn in the tile, px; more than that of its nodes where it is a stretch of a
+    /// course. The twist of the yarn is laid out over it.
+    pub length: f32,
+}
+
+/// Length of yarn up to the last of these nodes, px.
+pub fn length(nodes: &[Node]) -> f32 {
+    nodes.last().map_or(1.0, |node| node.along)
 }
 
 /// What is seen in one pixel of a field.
@@ -180,7 +188,8 @@ mod tests {
 
     fn across(y: f32, z: f32) -> Strand {
         let node = |x: f32| Node { at: [x, y, z], half: 3.0, along: x };
-        Strand { nodes: vec![node(-4.0), node(30.0), node(60.0)], flatness: 1.0, yarn: 0 }
+        let nodes = vec![node(-4.0), node(30.0), node(60.0)];
+        Strand { nodes, flatness: 1.0, yarn: 0, length: 64.0 }
     }
 
     #[test]

@@ -81,8 +81,6 @@ pub fn draw(strands: &[Strand], yarns: &[Look], grid: Grid, shading: Shading) ->
     let heights = levels(&field);
     let near = blurred(&heights, grid, (0.45 * shading.thread) as usize);
     let wide = blurred(&heights, grid, (1.1 * shading.thread) as usize);
-    let lengths: Vec<f32> =
-        strands.iter().map(|strand| strand.nodes.last().map_or(1.0, |node| node.along)).collect();
     let (lowest, highest) = heights
         .iter()
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
@@ -109,7 +107,7 @@ pub fn draw(strands: &[Strand], yarns: &[Look], grid: Grid, shading: Shading) ->
                     Some((strand, skin)) if strand == seen.strand => skin,
                     _ => {
                         let strand = seen.strand as usize;
-                        let share = seen.along / lengths[strand];
+                        let share = seen.along / strands[strand].length;
                         skin(&yarns[strands[strand].yarn], seen.strand, share, seen.across)
                     }
                 };

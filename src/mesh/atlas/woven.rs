@@ -2,7 +2,7 @@
 //! says.
 
 use super::noise;
-use super::strand::{Node, Strand};
+use super::strand::{self, Node, Strand};
 use super::tile::{Grid, Look};
 use crate::textile::fabric::Thread;
 use crate::textile::weave::Weave;
@@ -68,7 +68,8 @@ pub fn strands(
             seed: 11,
         };
         let nodes = course.nodes(up, |along, aside| [aside, along]);
-        strands.push(Strand { nodes, flatness: thick / width[0], yarn: WARP });
+        let length = strand::length(&nodes);
+        strands.push(Strand { nodes, flatness: thick / width[0], yarn: WARP, length });
     }
     for pick in 0..threads[1] {
         let up = |end: usize| !weave.warp_up(end, pick);
@@ -84,7 +85,8 @@ pub fn strands(
             seed: 12,
         };
         let nodes = course.nodes(up, |along, aside| [along, aside]);
-        strands.push(Strand { nodes, flatness: thick / width[1], yarn: WEFT });
+        let length = strand::length(&nodes);
+        strands.push(Strand { nodes, flatness: thick / width[1], yarn: WEFT, length });
     }
     strands
 }
