@@ -14,6 +14,7 @@ mod explain;
 mod fabric;
 mod fmt;
 mod graded;
+mod knit;
 mod lsp;
 mod new;
 mod output;
@@ -25,7 +26,7 @@ mod weave;
 use crate::units::Quantity;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// A garment is written down as text; darzi cuts it, sews it, hangs it on a body and shows it.
@@ -61,6 +62,8 @@ enum Command {
     Fabric(fabric::Fabric),
     /// Drafts of weavers: .wif files and the weaves of a text, checked, drawn, written
     Weave(weave::Weave),
+    /// Charts of knitters: programs of machines, KnitScape files and the knits of a text
+    Knit(knit::Knit),
     /// Write a commented starter file
     New(new::New),
     /// Say what the code of a message means
@@ -151,6 +154,12 @@ fn length(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Whether a path ends in one of these, in any case.
+fn ends_with(path: &Path, ends: &[&str]) -> bool {
+    let end = path.extension().and_then(|end| end.to_str());
+    end.is_some_and(|end| ends.iter().any(|known| end.eq_ignore_ascii_case(known)))
+}
+
 /// Why a command ended early.
 enum Stop {
     /// The input is wrong; already told.
@@ -183,6 +192,7 @@ pub fn main() -> ExitCode {
         Command::Render(it) => it.run(),
         Command::Fabric(it) => it.run(),
         Command::Weave(it) => it.run(),
+        Command::Knit(it) => it.run(),
         Command::New(it) => it.run(),
         Command::Explain(it) => it.run(),
         Command::Lsp(it) => it.run(),

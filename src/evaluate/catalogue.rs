@@ -1,4 +1,4 @@
-//! The fabrics and weaves that a file may name: its own, those of the files it uses, the
+//! The fabrics, weaves and knits that a file may name: its own, those of the files it uses, the
 //! library's.
 
 use super::item::{ItemId, Made};
@@ -6,8 +6,10 @@ use super::words::Kind;
 use super::{Evaluator, Options, work};
 use crate::diagnostic::{Diagnostic, FileId, Span};
 use crate::textile::fabric::{Fabric, Structure};
+use crate::textile::knit::Knit;
 use crate::textile::origin::Origins;
 use crate::textile::weave::Weave;
+use crate::textile::yarn::Yarn;
 use crate::world::World;
 
 /// A fabric of the catalogue.
@@ -60,7 +62,59 @@ pub fn woven(
     work(world, root, options, |evaluator| evaluator.woven())
 }
 
+/// A knit of the catalogue, or a knitted fabric.
+#[derive(Clone, Debug)]
+pub struct Knitted {
+    /// Its name.
+    pub name: String,
+    /// The file in which it stands, or `std::knit`.
+    pub home: String,
+    /// Where its name stands.
+    pub at: Span,
+    /// Whether it stands in the file itself.
+    pub own: bool,
+    /// The knit.
+    pub knit: Knit,
+    /// The yarn of a fabric.
+    pub yarn: Option<Yarn>,
+}
+
+/// All sound knits and knitted fabrics that `root` may name: its own first, then those of other
+/// files, then the library's; and what is wrong with the others.
+pub fn knitted(
+    world: &mut dyn World,
+    root: FileId,
+    options: &Options,
+) -> (Vec<Knitted>, Vec<Diagnostic>) {
+    work(world, root, options, |evaluator| evaluator.knitted())
+}
+
 impl Evaluator<'_> {
+    fn knitted(&mut self) -> Vec<Knitted> {
+        self.open_files();
+        let mut ranked: Vec<(u8, Knitted)> = Vec::new();
+        for number in 0..self.items.len() {
+            let id = ItemId(number);
+            let (kind, at, name) =
+                (self.item(id).kind, self.item(id).span, self.item(id).name.clone());
+            if !matches!(kind, Kind::Knit | Kind::Fabric) {
+                continue;
+            }
+            let (knit, yarn) = match self.make(id, at) {
+                Some(Made::Knit(knit)) => ((*knit).clone(), None),
+                Some(Made::Fabric(fabric, _)) => match &fabric.structure {
+                    Structure::Knitted { knit, yarn } => (knit.clone(), Some(yarn.clone())),
+                    Structure::Woven { .. } => continue,
+                },
+                _ => continue,
+            };
+            let Some((rank, home)) = self.home(at.file) else { continue };
+            ranked.push((rank, Knitted { name, home, at, own: rank == 0, knit, yarn }));
+        }
+        ranked.sort_by_key(|(rank, _)| *rank);
+        ranked.into_iter().map(|(_, entry)| entry).collect()
+    }
+
     fn woven(&mut self) -> Vec<Woven> {
         self.open_files();
         let mut ranked: Vec<(u8, Woven)> = Vec::new();

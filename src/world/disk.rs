@@ -17,7 +17,8 @@ pub struct Disk {
 /// texts can tell where it is too long.
 const LONGEST_FILE: u64 = (8 << 20) + 1;
 
-/// The longest weaving file. A lift plan of a thousand shafts is long, and quickly read.
+/// The longest file of a weaving or knitting program. A lift plan of a thousand shafts is long, and
+/// quickly read.
 const LONGEST_DRAFT: u64 = (32 << 20) + 1;
 
 impl Disk {
@@ -43,7 +44,8 @@ impl Disk {
             return Err(format!("`{path}` is not a file"));
         }
         let draft = super::path::is_draft(path);
-        let longest = if draft { LONGEST_DRAFT } else { LONGEST_FILE };
+        let knitting = super::path::is_knitting(path);
+        let longest = if draft || knitting { LONGEST_DRAFT } else { LONGEST_FILE };
         let mut bytes = Vec::new();
         let file = std::fs::File::open(&place).map_err(said)?;
         file.take(longest).read_to_end(&mut bytes).map_err(said)?;

@@ -53,6 +53,13 @@ pub fn is_draft(path: &str) -> bool {
     ["wif", "plm"].iter().any(|known| end.eq_ignore_ascii_case(known))
 }
 
+/// Whether a path names a file of a knitting program: knitout (`.k`), or a chart of KnitScape
+/// (`.json`).
+pub fn is_knitting(path: &str) -> bool {
+    let end = path.rsplit_once('.').map_or("", |(_, end)| end);
+    ["k", "json"].iter().any(|known| end.eq_ignore_ascii_case(known))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

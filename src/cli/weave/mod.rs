@@ -3,7 +3,7 @@
 mod source;
 mod stats;
 
-use super::{MessageFormat, Stop, output, say};
+use super::{MessageFormat, Stop, ends_with, output, say};
 use crate::textile::objection::Loom;
 use crate::textile::{paper, wif};
 use source::Source;
@@ -84,12 +84,6 @@ impl Weave {
         }
         Ok(())
     }
-}
-
-/// Whether a path ends in one of these, in any case.
-fn ends_with(path: &Path, ends: &[&str]) -> bool {
-    let end = path.extension().and_then(|end| end.to_str());
-    end.is_some_and(|end| ends.iter().any(|known| end.eq_ignore_ascii_case(known)))
 }
 
 fn draw(path: &Path, source: &Source) -> Result<(), Stop> {

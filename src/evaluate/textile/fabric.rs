@@ -235,6 +235,18 @@ fn structure<'t>(
                         .help("a knit is made of one yarn: `yarn: NAME`"),
                 );
             }
+            if let Some(phrase) = fields.get("structure").filter(|_| !knit.chart.closes()) {
+                let (first, last) = (knit.chart.uses(0), knit.chart.height() - 1);
+                let message = format!(
+                    "`{}` does not go on above itself: row 1 works {first} stitches, row {} leaves {}",
+                    knit.name,
+                    last + 1,
+                    knit.chart.leaves(last)
+                );
+                let told =
+                    Diagnostic::new("W0606", message).at(phrase.span, "repeated over the cloth");
+                ev.tell(told.help("a chart for a cloth leaves as many stitches as it begins with"));
+            }
             let phrase = ev.required(fields, "yarn")?.clone();
             let yarn = thread(ev, &phrase)?.yarn;
             Some(Structure::Knitted { knit: (*knit).clone(), yarn })

@@ -14,7 +14,7 @@ pub use program::{
     Bed, Carrier, Content, Direction, Line, Making, Needle, Operation, Program, Yarn,
 };
 pub use read::read;
-pub use run::{Outcome, Work, run};
+pub use run::{Outcome, Pass, Work, run};
 pub use write::write;
 
 #[cfg(test)]

@@ -19,6 +19,17 @@ pub struct Work {
     pub longest_float: u32,
 }
 
+/// A pass of the carriage in which loops are made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// The way it goes.
+    pub direction: Direction,
+    /// The carriers it takes along.
+    pub carriers: Vec<Carrier>,
+    /// The loops it makes, in their order; a split is a knitted loop.
+    pub loops: Vec<(Needle, Making)>,
+}
+
 /// What came of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
@@ -34,9 +45,9 @@ pub struct Outcome {
     pub transferred: u64,
     /// Loops that fell off their needles.
     pub dropped: u64,
-    /// Passes of the carriage that make loops: one more where the way, the carriers or the order
+    /// Passes of the carriage that make loops: a new one where the way, the carriers or the order
     /// of needles change.
-    pub passes: u64,
+    pub passes: Vec<Pass>,
     /// The lowest and the highest number of a needle that made or held a loop.
     pub reach: Option<[i32; 2]>,
     /// Loops drawn through others at one number of needle, at most: the rows of the piece.
@@ -84,14 +95,6 @@ enum State {
     In(Span),
 }
 
-/// A pass of the carriage.
-#[derive(Clone, Debug, PartialEq)]
-struct Pass {
-    direction: Direction,
-    carriers: Vec<Carrier>,
-    last: i32,
-}
-
 struct Machine<'p> {
     program: &'p Program,
     told: Told,
@@ -102,7 +105,6 @@ struct Machine<'p> {
     /// The carriers whose yarns the inserting hook holds, and whether they have made a loop since.
     hook: Option<(Vec<Carrier>, Span)>,
     racking: f64,
-    pass: Option<Pass>,
     /// The number of the last loop of each carrier in the pass in hand.
     last: BTreeMap<Carrier, i32>,
     /// Loops drawn through others, by number of needle.
@@ -121,7 +123,6 @@ impl<'p> Machine<'p> {
             states: vec![State::Out; carriers],
             hook: None,
             racking: 0.0,
-            pass: None,
             last: BTreeMap::new(),
             courses: BTreeMap::new(),
         }
@@ -252,7 +253,7 @@ impl<'p> Machine<'p> {
             }
             return;
         }
-        self.pass(direction, needle.number, carriers);
+        self.pass(direction, needle, making, carriers);
         let held = self.needles.entry(needle).or_default();
         *held = if making == Making::Knit { 1 } else { *held + 1 };
         self.outcome.most_on_needle = self.outcome.most_on_needle.max(*held);
@@ -289,7 +290,7 @@ impl<'p> Machine<'p> {
             self.empty(from, "nothing goes over");
         }
         if !carriers.is_empty() {
-            self.pass(direction, from.number, carriers);
+            self.pass(direction, from, Making::Knit, carriers);
             self.needles.insert(from, 1);
             self.outcome.split += 1;
             self.course(from.number);
@@ -315,20 +316,21 @@ impl<'p> Machine<'p> {
         self.wrong("E0636", message, Some(&help));
     }
 
-    /// Counts a loop of a pass.
-    fn pass(&mut self, direction: Direction, number: i32, carriers: &[Carrier]) {
+    /// Notes a loop of a pass.
+    fn pass(&mut self, direction: Direction, needle: Needle, making: Making, carriers: &[Carrier]) {
+        let number = needle.number;
         let onward = |pass: &Pass| {
-            let further = match direction {
-                Direction::Right => pass.last <= number,
-                Direction::Left => pass.last >= number,
-            };
+            let further = pass.loops.last().is_none_or(|(last, _)| match direction {
+                Direction::Right => last.number <= number,
+                Direction::Left => last.number >= number,
+            });
             further && pass.direction == direction && pass.carriers == carriers
         };
-        match &mut self.pass {
-            Some(pass) if onward(pass) => pass.last = number,
-            pass => {
-                self.outcome.passes += 1;
-                *pass = Some(Pass { direction, carriers: carriers.to_vec(), last: number });
+        match self.outcome.passes.last_mut() {
+            Some(pass) if onward(pass) => pass.loops.push((needle, making)),
+            _ => {
+                let (carriers, loops) = (carriers.to_vec(), vec![(needle, making)]);
+                self.outcome.passes.push(Pass { direction, carriers, loops });
                 self.last.clear();
             }
         }

@@ -38,7 +38,7 @@ fn a_tube_of_two_rounds_is_followed_loop_by_loop() {
         "inhook 2 ; the yarn\ntuck - f2 2\ntuck - f1 2\ntuck + b1 2\ntuck + b2 2\n\
          knit - f2 2\nknit - f1 2\nreleasehook 2\nknit + b1 2\nknit + b2 2\nouthook 2\n",
     );
-    assert_eq!((outcome.knitted, outcome.tucked, outcome.passes), ([2, 2], 4, 4));
+    assert_eq!((outcome.knitted, outcome.tucked, outcome.passes.len()), ([2, 2], 4, 4));
     assert_eq!((outcome.left(), outcome.reach), (4, Some([1, 2])));
     assert_eq!(outcome.carriers[1], Work { loops: 8, longest_float: 0 });
     assert_eq!((outcome.courses, outcome.most_on_needle), (2, 1));

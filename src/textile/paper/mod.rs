@@ -1,14 +1,17 @@
-//! Point paper: drafts as weavers draw them, and a simulation of the cloth beside them.
+//! Point paper: drafts as weavers draw them, with a simulation of the cloth beside them, and
+//! charts as knitters do.
 //!
 //! A [`Sheet`] is a list of shapes in pixels, x to the right and y down, drawn in their order. It
 //! is written as SVG or painted; both show the same.
 
+mod chart;
 mod cloth;
 mod digit;
 mod draft;
 mod paint;
 mod svg;
 
+pub use chart::chart;
 pub use draft::{Drawing, drawing};
 pub use paint::paint;
 pub use svg::svg;
@@ -85,7 +88,23 @@ pub enum Shape {
         /// How far it dips under others at its ends, in pixels of its length.
         dips: [f64; 2],
     },
-    /// Digits and the letters of `cm`.
+    /// A line from point to point.
+    Line {
+        /// Its points.
+        points: Vec<[f64; 2]>,
+        /// How thick it is.
+        thick: f64,
+        /// In which colour.
+        colour: Colour,
+    },
+    /// A filled polygon that does not cross itself.
+    Polygon {
+        /// Its corners.
+        points: Vec<[f64; 2]>,
+        /// In which colour.
+        colour: Colour,
+    },
+    /// Digits, Latin letters and a few signs.
     Digits {
         /// The middle of the text.
         middle: [f64; 2],

@@ -43,6 +43,8 @@ impl Canvas {
             Shape::Thread { area, upright, colour, dips } => {
                 self.thread(*area, *upright, *colour, *dips);
             }
+            Shape::Line { points, thick, colour } => self.line(points, *thick, *colour),
+            Shape::Polygon { points, colour } => self.polygon(points, *colour),
             Shape::Digits { middle, height, text, colour } => {
                 self.digits(*middle, *height, text, *colour);
             }
@@ -129,6 +131,51 @@ impl Canvas {
         });
     }
 
+    /// The box round points, widened by `more`.
+    fn around(points: &[[f64; 2]], more: f64) -> Area {
+        let low = |axis: usize| points.iter().map(|at| at[axis]).fold(f64::INFINITY, f64::min);
+        let high = |axis: usize| points.iter().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let (x, y) = (low(0) - more, low(1) - more);
+        Area { x, y, width: high(0) + more - x, height: high(1) + more - y }
+    }
+
+    fn line(&mut self, points: &[[f64; 2]], thick: f64, colour: Colour) {
+        if points.len() < 2 {
+            return;
+        }
+        self.shade(Self::around(points, thick / 2.0 + 1.0), |x, y| {
+            let far = points.windows(2).map(|ends| distance([x, y], ends[0], ends[1]));
+            let far = far.fold(f64::INFINITY, f64::min);
+            (colour.0, (thick / 2.0 + 0.5 - far).clamp(0.0, 1.0))
+        });
+    }
+
+    fn polygon(&mut self, points: &[[f64; 2]], colour: Colour) {
+        if points.len() < 3 {
+            return;
+        }
+        // Sixteen points of a pixel say how much of it is covered.
+        const PARTS: usize = 4;
+        let inside = |x: f64, y: f64| {
+            let edges = points.iter().zip(points.iter().cycle().skip(1));
+            let crossed = edges.filter(|(a, b)| {
+                (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+            });
+            crossed.count() % 2 == 1
+        };
+        let mut area = Self::around(points, 0.0);
+        // Whole pixels, so that each is shaded at its middle.
+        let (right, bottom) = ((area.x + area.width).ceil(), (area.y + area.height).ceil());
+        (area.x, area.y) = (area.x.floor(), area.y.floor());
+        (area.width, area.height) = (right - area.x, bottom - area.y);
+        self.shade(area, |x, y| {
+            let at = |n: usize| (n as f64 + 0.5) / PARTS as f64 - 0.5;
+            let all = (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| [at(i), at(j)]));
+            let covered = all.filter(|[i, j]| inside(x + i, y + j)).count();
+            (colour.0, covered as f64 / (PARTS * PARTS) as f64)
+        });
+    }
+
     fn digits(&mut self, middle: [f64; 2], height: f64, text: &str, colour: Colour) {
         let point = height / digit::HEIGHT;
         // Whole pixels keep small digits clear.
@@ -151,6 +198,19 @@ impl Canvas {
             }
         }
     }
+}
+
+/// How far a point lies from the line between two others.
+fn distance(at: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let off = [at[0] - from[0], at[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = if square > 0.0 {
+        ((off[0] * along[0] + off[1] * along[1]) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    libm::hypot(off[0] - part * along[0], off[1] - part * along[1])
 }
 
 #[cfg(test)]
@@ -177,6 +237,18 @@ mod tests {
         assert!(red(4, 20) > 190 && red(0, 20) < 180 && red(8, 20) < 180);
         assert!(red(4, 0) < red(4, 4) && red(4, 4) < red(4, 8));
         assert_eq!(red(4, 39), red(4, 20));
+    }
+
+    #[test]
+    fn lines_and_polygons_cover_what_they_should() {
+        let colour = Colour([0, 0, 0, 255]);
+        let points = vec![[1.0, 1.0], [5.0, 1.0], [5.0, 5.0], [1.0, 5.0]];
+        let line = Shape::Line { points: vec![[0.0, 7.5], [8.0, 7.5]], thick: 1.0, colour };
+        let shapes = vec![Shape::Polygon { points, colour }, line];
+        let picture = paint(&Sheet { width: 8, height: 9, shapes, ..Sheet::default() });
+        let dark = picture.pixels().filter(|pixel| pixel.0[0] == 0).count();
+        assert_eq!(dark, 16 + 8);
+        assert_eq!(picture.get_pixel(0, 0).0[0], 255);
     }
 
     #[test]

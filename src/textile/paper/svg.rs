@@ -111,6 +111,17 @@ fn draw(out: &mut String, shape: &Shape) {
             }
             writeln!(out, "{lines}")
         }
+        Shape::Line { points, thick, colour } => writeln!(
+            out,
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
+             stroke-linecap=\"round\" stroke-linejoin=\"round\"/>",
+            pairs(points),
+            hex(*colour),
+            number(*thick)
+        ),
+        Shape::Polygon { points, colour } => {
+            writeln!(out, "<polygon points=\"{}\" fill=\"{}\"/>", pairs(points), hex(*colour))
+        }
         Shape::Digits { middle, height, text, colour } => {
             let size = height / 0.72;
             writeln!(
@@ -131,6 +142,12 @@ fn draw(out: &mut String, shape: &Shape) {
 fn place(area: Area) -> String {
     let [x, y, width, height] = [area.x, area.y, area.width, area.height].map(number);
     format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")
+}
+
+fn pairs(points: &[[f64; 2]]) -> String {
+    let pairs: Vec<String> =
+        points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
+    pairs.join(" ")
 }
 
 fn number(pixels: f64) -> String {
