@@ -107,7 +107,7 @@ fn charts_of_knitscape_are_read() {
     assert_eq!((&lace["stitches"], &lace["rows"]), (&4.into(), &8.into()));
     // Two needles of four are out of work; on the others each tuck of the bitmap is one.
     assert_eq!(lace["symbols"]["no_stitch"], 16);
-    assert_eq!(lace["symbols"]["tuck"], 4);
+    assert_eq!(lace["symbols"]["tuck"], 8);
     assert_eq!(lace["colours"], serde_json::json!(["#00254d", "#ffae00", "#f51e0f"]));
     let basket = stats(&data(), &["knitscape_basketweave.json"]);
     assert_eq!((&basket["stitches"], &basket["rows"]), (&20.into(), &24.into()));

@@ -14,8 +14,17 @@ pub(super) struct Told {
     all: Vec<Diagnostic>,
     /// Whether what was said last is among them.
     shown: bool,
-    /// How many there are of a code about a subject, and which is the last that is told.
-    count: BTreeMap<(&'static str, String), (usize, usize)>,
+    /// How many there are of a code about a subject.
+    count: BTreeMap<(&'static str, String), Count>,
+}
+
+#[derive(Debug)]
+struct Count {
+    all: usize,
+    /// Those that are told at most.
+    most: usize,
+    /// The last that is told.
+    last: usize,
 }
 
 impl Told {
@@ -38,13 +47,28 @@ impl Told {
         label: &str,
         help: Option<&str>,
     ) {
-        let (count, last) = self.count.entry((code, subject.to_owned())).or_insert((0, 0));
-        *count += 1;
-        self.shown = *count <= ALIKE;
+        self.say_up_to(ALIKE, code, subject, at, message, label, help);
+    }
+
+    /// Says something of a place, so many times of one subject at most.
+    pub fn say_up_to(
+        &mut self,
+        most: usize,
+        code: &'static str,
+        subject: &str,
+        at: Span,
+        message: String,
+        label: &str,
+        help: Option<&str>,
+    ) {
+        let none = Count { all: 0, most, last: 0 };
+        let count = self.count.entry((code, subject.to_owned())).or_insert(none);
+        count.all += 1;
+        self.shown = count.all <= most;
         if !self.shown {
             return;
         }
-        *last = self.all.len();
+        count.last = self.all.len();
         let mut told = Diagnostic::new(code, message).at(at, label);
         told.help = help.map(str::to_owned);
         self.all.push(told);
@@ -59,7 +83,7 @@ impl Told {
 
     /// Whether another message of this code about this subject would be shown.
     pub fn shows(&self, code: &'static str, subject: &str) -> bool {
-        self.count.get(&(code, subject.to_owned())).is_none_or(|(count, _)| *count < ALIKE)
+        self.count.get(&(code, subject.to_owned())).is_none_or(|count| count.all < count.most)
     }
 
     /// Says something of the whole file.
@@ -76,8 +100,8 @@ impl Told {
     /// All messages, with a word about those that were left out.
     pub fn all(self) -> Vec<Diagnostic> {
         let mut all = self.all;
-        for (count, last) in self.count.into_values() {
-            let Some(more) = count.checked_sub(ALIKE).filter(|more| *more > 0) else { continue };
+        for Count { all: count, most, last } in self.count.into_values() {
+            let Some(more) = count.checked_sub(most).filter(|more| *more > 0) else { continue };
             if let Some(last) = all.get_mut(last) {
                 last.message.push_str(&format!(", and {more} more like this"));
             }

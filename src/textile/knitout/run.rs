@@ -355,9 +355,11 @@ impl<'p> Machine<'p> {
         *reach = [reach[0].min(number), reach[1].max(number)];
     }
 
+    /// Tells work on a needle without loops; many programs let whole rows of needles fall to be
+    /// sure, so it is told once.
     fn empty(&mut self, needle: Needle, what: &str) {
         let message = format!("{needle} holds no loop, {what}");
-        self.wrong("W0632", message, None);
+        self.told.say_up_to(1, "W0632", what, self.at, message, "here", None);
     }
 
     fn wrong(&mut self, code: &'static str, message: String, help: Option<&str>) {
@@ -370,6 +372,11 @@ impl<'p> Machine<'p> {
     }
 
     fn end(mut self) -> (Outcome, Vec<Diagnostic>) {
+        self.outcome.left = std::mem::take(&mut self.needles);
+        // Where something is wrong, what is left over only follows from it.
+        if self.told.refused() {
+            return (self.outcome, self.told.all());
+        }
         for (number, state) in self.states.clone().into_iter().enumerate() {
             if let State::In(since) = state {
                 let name = self.name(number as Carrier);
@@ -384,7 +391,6 @@ impl<'p> Machine<'p> {
             let help = format!("`releasehook {names}` lets it go, once a few loops are knitted");
             self.told.say_with("W0633", "", since, message, "called in here", Some(&help));
         }
-        self.outcome.left = self.needles;
         (self.outcome, self.told.all())
     }
 }

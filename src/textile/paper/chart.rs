@@ -329,7 +329,6 @@ mod tests {
         for symbol in &all {
             assert!(explained(&symbol.word().replace('_', " ")), "{symbol:?}");
             let blank = shown(&[&[Symbol::Knit; 3]]);
-            let width = if *symbol == cable { 3 } else { 1 };
             let one = shown(&[&vec![*symbol; 3][..]]);
             let marks = |sheet: &Sheet| {
                 let picture = paint(sheet);
