@@ -84,6 +84,8 @@ pub const CODES: &[Code] = &[
     code("E0605", "a property of a fabric given twice"),
     code("E0606", "a thread or shaft number that does not exist"),
     code("E0607", "a row of a knit in words that cannot be read"),
+    code("E0608", "a path that cannot be drawn"),
+    code("E0609", "a picture that cannot be read"),
     code("E0621", "a part of a weaving file that is missing"),
     code("E0622", "a value of a weaving file that cannot be read"),
     code("E0623", "a treadle or colour that a weaving file does not have"),

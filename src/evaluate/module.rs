@@ -212,7 +212,7 @@ fn ask(
         text,
         tree: Arc::default(),
         uses: Vec::new(),
-        drafts: Drafts::new(),
+        drafts: Drafts::default(),
     });
     asked
 }

@@ -47,6 +47,15 @@ impl World for Desk {
         })
     }
 
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        let path = super::path::normal(path)?;
+        match (self.open.get(&path), &self.folder) {
+            (Some(text), _) => Ok(text.as_bytes().to_vec()),
+            (None, Some(folder)) => Disk::read_bytes(folder, &path),
+            (None, None) => Err(format!("this text is not saved yet, so `{path}` is not found")),
+        }
+    }
+
     fn take_in(&mut self, title: &str, text: &str) -> FileId {
         self.opened.take_in(title, text)
     }

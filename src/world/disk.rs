@@ -21,14 +21,21 @@ const LONGEST_FILE: u64 = (8 << 20) + 1;
 /// quickly read.
 const LONGEST_DRAFT: u64 = (32 << 20) + 1;
 
+/// The longest picture.
+const LONGEST_PICTURE: u64 = (64 << 20) + 1;
+
 impl Disk {
     /// The project in the folder `root`.
     pub fn new(root: impl Into<PathBuf>) -> Self {
         Disk { root: root.into(), opened: Opened::default() }
     }
 
-    /// The text of a file below `root`.
-    pub(super) fn read(root: &Path, path: &str) -> Result<String, String> {
+    /// The bytes of a picture below `root`.
+    pub(super) fn read_bytes(root: &Path, path: &str) -> Result<Vec<u8>, String> {
+        Self::read_up_to(root, path, LONGEST_PICTURE)
+    }
+
+    fn read_up_to(root: &Path, path: &str, longest: u64) -> Result<Vec<u8>, String> {
         let said = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => format!("there is no `{path}`{}", near(root, path)),
             std::io::ErrorKind::PermissionDenied => format!("`{path}` may not be read"),
@@ -43,15 +50,21 @@ impl Disk {
         if !place.metadata().map_err(said)?.is_file() {
             return Err(format!("`{path}` is not a file"));
         }
-        let draft = super::path::is_draft(path);
-        let knitting = super::path::is_knitting(path);
-        let longest = if draft || knitting { LONGEST_DRAFT } else { LONGEST_FILE };
         let mut bytes = Vec::new();
         let file = std::fs::File::open(&place).map_err(said)?;
         file.take(longest).read_to_end(&mut bytes).map_err(said)?;
         if bytes.len() as u64 == longest {
             return Err(format!("`{path}` is longer than {} MB", longest >> 20));
         }
+        Ok(bytes)
+    }
+
+    /// The text of a file below `root`.
+    pub(super) fn read(root: &Path, path: &str) -> Result<String, String> {
+        let draft = super::path::is_draft(path);
+        let knitting = super::path::is_knitting(path);
+        let longest = if draft || knitting { LONGEST_DRAFT } else { LONGEST_FILE };
+        let bytes = Self::read_up_to(root, path, longest)?;
         if draft {
             return Ok(letters(bytes));
         }
@@ -120,6 +133,10 @@ impl World for Disk {
     fn open(&mut self, path: &str) -> Result<FileId, String> {
         let root = &self.root;
         self.opened.open(path, |path| Self::read(root, path))
+    }
+
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        Self::read_bytes(&self.root, &super::path::normal(path)?)
     }
 
     fn take_in(&mut self, title: &str, text: &str) -> FileId {

@@ -37,6 +37,12 @@ impl World for Memory {
         })
     }
 
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        let path = super::path::normal(path)?;
+        let text = self.texts.get(&path).ok_or_else(|| format!("there is no `{path}`"))?;
+        Ok(text.clone().into_bytes())
+    }
+
     fn take_in(&mut self, title: &str, text: &str) -> FileId {
         self.opened.take_in(title, text)
     }

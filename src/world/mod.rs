@@ -23,6 +23,12 @@ pub trait World: Texts {
     /// A sentence saying why it cannot be read.
     fn open(&mut self, path: &str) -> Result<FileId, String>;
 
+    /// The bytes of a file of the project that is no text, such as a picture.
+    ///
+    /// # Errors
+    /// A sentence saying why it cannot be read.
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String>;
+
     /// Takes in a text that is no file, such as an argument of the call, so that messages can
     /// show its places. `title` stands for its path; nothing can `use` it.
     fn take_in(&mut self, title: &str, text: &str) -> FileId;

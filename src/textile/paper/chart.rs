@@ -336,11 +336,7 @@ mod tests {
                 inside.filter(|(.., pixel)| pixel.0[0] < 150).count()
             };
             let drawn = marks(&one) > marks(&blank);
-            assert_eq!(
-                drawn,
-                !matches!(symbol, Symbol::Knit | Symbol::NoStitch),
-                "{symbol:?} {width}"
-            );
+            assert_eq!(drawn, !matches!(symbol, Symbol::Knit | Symbol::NoStitch), "{symbol:?}");
         }
         let text = svg(&sheet);
         assert!(!text.contains("NaN") && !text.contains("inf"));

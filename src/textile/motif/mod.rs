@@ -1,4 +1,9 @@
-//! Motifs: small charts of coloured cells, woven or printed on a ground.
+//! Motifs: small charts of coloured cells, woven or printed on a ground; drawn cell by cell, by
+//! paths, from pictures, or made of others.
+
+pub mod image;
+pub mod raster;
+pub mod tile;
 
 use super::Colour;
 use serde::{Deserialize, Serialize};
