@@ -156,8 +156,8 @@ fn tried(page: &Page, frames: &BTreeMap<String, String>) -> (Vec<String>, String
         if block.language != "garment" || block.names.is_some() {
             continue;
         }
-        // A weaving file is tried by the text that uses it.
-        if block.file.as_ref().is_some_and(|file| file.ends_with(".wif")) {
+        // A file of another program is tried by the text that uses it.
+        if block.file.as_ref().is_some_and(|file| !file.ends_with(".garment")) {
             continue;
         }
         let place = format!("{}:{}", page.path, block.line);

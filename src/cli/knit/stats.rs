@@ -65,12 +65,16 @@ fn of_chart(it: &Charted) -> Value {
         chart.counts().iter().map(|(symbol, count)| (symbol.word(), (*count).into())).collect();
     let colours: Vec<Value> = chart.palette().iter().map(|it| it.map(hex).into()).collect();
     let float = chart.longest_float();
-    let machine = match it.program() {
-        Ok(program) => {
+    // Of what no machine has needles for nobody wants the program.
+    const MOST: usize = 1 << 20;
+    let small = chart.width() * chart.height() <= MOST;
+    let machine = match small.then(|| it.program()) {
+        None => Value::Null,
+        Some(Ok(program)) => {
             let (outcome, _) = knitout::run(crate::diagnostic::FileId(0), &program);
             loops(&outcome)
         }
-        Err(told) => json!({ "refused": told.message }),
+        Some(Err(told)) => json!({ "refused": told.message }),
     };
     json!({
         "title": it.title,

@@ -1,12 +1,13 @@
-//! Knits: by chart, in words, from a file.
+//! Knits: by chart, in words, from a file, of a motif.
 
 use super::chart::{self, Keys};
 use super::weave::quotients;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::evaluate::Evaluator;
 use crate::evaluate::fields::{Arg, Fields, Phrase, bare};
-use crate::evaluate::item::ItemId;
+use crate::evaluate::item::{ItemId, Made};
 use crate::evaluate::poison::unread;
+use crate::evaluate::words::Kind;
 use crate::syntax::tree::{Expr, ExprKind, Item};
 use crate::textile::Colour;
 use crate::textile::knit::{
@@ -17,11 +18,14 @@ use crate::units::{Dimension, length};
 /// Wales or courses a metre may have: cobweb and machine lace below, fishing nets above.
 const GAUGES: (f64, f64) = (5.0, 20_000.0);
 /// The words that say what a knit is; a knit has one of them.
-const WAYS: [&str; 3] = ["chart", "written", "knitscape"];
+const WAYS: [&str; 4] = ["chart", "written", "knitscape", "motif"];
 /// Floats are told to be long beyond this many stitches
 const LONG: usize = 5;
 /// and this length, m: a finger catches in them (an inch is the usual rule).
 const LONG_METRES: f64 = 0.025;
+
+/// Cells that count as one step of evaluation.
+const CELLS: usize = 4;
 
 /// A cell of a chart: what it is, and in which colour where that is said.
 type Cell = (Symbol, Option<Colour>);
@@ -32,6 +36,9 @@ pub(in crate::evaluate) fn knit(ev: &mut Evaluator<'_>, id: ItemId) -> Option<Kn
     let gauge = gauge(ev, &fields);
     let made = way(ev, &fields).and_then(|way| Some((made(ev, &fields, &way)?, way)));
     let ([wales, courses], (chart, way)) = (gauge?, made?);
+    if !ev.step((chart.width() * chart.height() / CELLS) as u64, way.span) {
+        return None;
+    }
     let mut chart = chart;
     chart.round = fields.get("worked").and_then(|it| it.choice(0)) == Some("round");
     if fields.get("colors").and_then(|it| it.choice(0)) == Some("intarsia") {
@@ -108,6 +115,7 @@ fn made<'t>(ev: &mut Evaluator<'t>, fields: &Fields<'t>, way: &Phrase<'t>) -> Op
             told.into_iter().for_each(|told| ev.tell(told));
             found
         }
+        "motif" => of_motif(ev, way),
         _ => charted(ev, fields, way),
     }
 }
@@ -238,6 +246,15 @@ fn cable<'t>(ev: &mut Evaluator<'t>, line: &Phrase<'t>, items: &'t [Item]) -> Op
 fn unknown<'t>(ev: &mut Evaluator<'t>, line: &Phrase<'t>) {
     let words: Vec<&str> = Symbol::words().chain(["cable 2/2 left", "a colour"]).collect();
     chart::unknown_meaning(ev, line, &words);
+}
+
+/// `motif:` with a stitch for each of its cells, in its colour.
+fn of_motif<'t>(ev: &mut Evaluator<'t>, way: &Phrase<'t>) -> Option<Chart> {
+    let arg = way.arg(0)?;
+    let id = ev.item_named(arg, Kind::Motif)?;
+    let Made::Motif(motif) = ev.make(id, arg.expr.span)? else { return None };
+    let symbols = motif.rows.iter().map(|row| vec![Symbol::Knit; row.len()]).collect();
+    sound(ev, Chart::new(symbols, Some(motif.rows.clone())), way, |_| way.span)
 }
 
 /// `written:` rows.

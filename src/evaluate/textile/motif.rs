@@ -33,7 +33,7 @@ const COMPANIONS: [(&str, &[&str]); 9] = [
 /// Columns or rows of a motif.
 const LARGEST: usize = 4_096;
 /// Cells that count as one step of evaluation.
-const CELLS: usize = 16;
+const CELLS: usize = 8;
 
 type Rows = Vec<Vec<Option<Colour>>>;
 
@@ -290,12 +290,16 @@ fn of_image<'t>(
     };
     let bytes = ev.picture_of(way)?;
     match image::decoded(&bytes) {
-        Ok(picture) => Some(picture.quantised(cells, &yarns, ground)),
+        Ok(picture) => {
+            let [width, height] = picture.size();
+            let worked = ev.step((width * height / CELLS) as u64, way.span);
+            worked.then(|| picture.quantised(cells, &yarns, ground))
+        }
         Err(why) => {
             ev.tell(
                 Diagnostic::new("E0609", format!("the picture cannot be read: {why}"))
                     .at(way.span, "here")
-                    .help("PNG and PNM pictures are read, up to 8192 pixels across and down"),
+                    .help("PNG and PNM pictures are read, up to 4096 pixels across and down"),
             );
             None
         }

@@ -5,7 +5,9 @@ use crate::evaluate::{Evaluator, module};
 use crate::garment::sari::{BandFill, Sari};
 use crate::garment::scene::BodyRequest;
 use crate::textile::fabric::{Fabric, Structure};
-use crate::textile::knit::Stitch;
+use crate::textile::Colour;
+use crate::textile::knit::{Cable, Knit, Lean, Stitch, Symbol};
+use crate::textile::motif::Motif;
 use crate::textile::weave::Weave;
 use crate::textile::yarn::Twist;
 use crate::world::{Memory, World};
@@ -288,5 +290,115 @@ fn a_wearer_has_every_measure_of_her_size_and_her_own() {
         ("inseam", 0.82),
     ] {
         near(man.measures[name], length);
+    }
+}
+
+fn knit(inside: &str) -> Knit {
+    match sound(&format!("knit k {{ {inside}; gauge: 22 x 30 per 10cm }}")) {
+        Made::Knit(knit) => (*knit).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_legend_says_symbols_and_colours() {
+    let text = "legend { \"<<<\": cable 2/1 left purl; \"m\": m1r red; \"x\": crimson }; \
+                chart: |<<<.xV|mo/./.|......|";
+    let knit = knit(text);
+    let cable = Cable { front: 2, behind: 1, lean: Lean::Left, purl: true };
+    assert_eq!(knit.chart.placed(2)[0], (Symbol::Cable(cable), 0, 3));
+    let words: Vec<String> = knit.chart.rows()[1].iter().map(|it| it.word()).collect();
+    assert_eq!(words, ["m1r", "yo", "k2tog", "knit", "k2tog", "knit"]);
+    assert!(knit.chart.colour(0, 1).is_some() && knit.chart.colour(1, 1).is_none());
+    assert_eq!(knit.chart.colour(4, 2), Some(Colour([156, 22, 49, 255])));
+    assert!(!knit.chart.round);
+}
+
+#[test]
+fn knits_are_said_in_words_or_shown_from_behind() {
+    let knit_of = knit("written: |round 1: *k2, p1*|round 2: k|; stitches: 6; worked: round");
+    let words: Vec<String> = knit_of.chart.rows()[0].iter().map(|it| it.word()).collect();
+    assert_eq!(words, ["purl", "knit", "knit", "purl", "knit", "knit"]);
+    assert!(knit_of.chart.round);
+    let behind = knit("chart: |.\\o-|; face: back");
+    let words: Vec<String> = behind.chart.rows()[0].iter().map(|it| it.word()).collect();
+    assert_eq!(words, ["knit", "yo", "p2tog", "purl"]);
+}
+
+#[test]
+fn what_is_wrong_with_a_knit_is_told() {
+    for (text, wanted) in [
+        ("chart: |.o..|....|", "E0603"),
+        ("legend { \"<\": cable 2/2 left }; chart: |<<<.|", "E0603"),
+        ("legend { \"x\": cable 2/99 left }; chart: |x|", "E0303"),
+        ("legend { \"x\": cable 2 left }; chart: |x|", "E0602"),
+        ("legend { \"x\": k2tgo }; chart: |x|", "E0602"),
+        ("written: |row 1: k2, q|", "E0607"),
+        ("written: |row 1: *k2*|", "E0208"),
+        ("written: |row 1: k2|row 2: k3|", "E0603"),
+        ("chart: |.|; written: |row 1: k|", "E0209"),
+        ("chart: |.|; stitches: 4", "E0207"),
+        ("chart: |.B|; face: back", "E0207"),
+        ("legend { \"x\": red }; chart: |x.......|", "W0607"),
+        ("face: front", "E0208"),
+    ] {
+        let text = format!("knit k {{ {text}; gauge: 22 x 30 per 10cm }}");
+        assert_eq!(made(&text).1, [wanted], "{text}");
+    }
+    let own = "legend { \"x\": red }; chart: |x.......|; colors: intarsia";
+    assert_eq!(knit(own).chart.patches(), 2);
+    let fine = "knit k { legend { \"x\": red }; chart: |x.......|; gauge: 140 x 200 per 10cm }";
+    assert_eq!(made(fine).1, [""; 0], "five millimetres are no long float");
+}
+
+fn motif(text: &str) -> Motif {
+    match sound(text) {
+        Made::Motif(motif) => (*motif).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn motifs_are_drawn_by_paths_on_the_threads_of_a_cloth() {
+    let path = "path \"M0 0 H10 V10 H0 Z M2 2 H8 V8 H2 Z\" gold evenodd; path \"M4 4 H6 V6 H4 Z\" red";
+    let ring = motif(&format!("motif m {{ {path}; frame: 10 x 10; threads: 10 x 10; size: 1cm x 1cm }}"));
+    let woven = ring.rows.iter().flatten().filter(|cell| cell.is_some()).count();
+    assert_eq!(woven, 100 - 36 + 4);
+    assert_ne!(ring.rows[0][0], ring.rows[4][4]);
+    let cloth = "yarn y { count: 20tex }\nfabric f { warp: y at 20/cm   weft: y at 15/cm }\n";
+    let fine = motif(&format!("{cloth}motif m {{ {path}; on: f; size: 1cm x 1cm }}"));
+    assert_eq!((fine.width(), fine.height()), (20, 15));
+}
+
+#[test]
+fn motifs_are_made_of_others_and_knitted() {
+    let leaf = "motif leaf { legend { \"x\": red }; picture: |x.|xx|; size: 2mm x 2mm }\n";
+    let field = motif(&format!("{leaf}motif m {{ of: leaf; repeat: half_drop; times: 3 x 2 }}"));
+    assert_eq!((field.width(), field.height(), field.name.as_str()), (6, 4, "m"));
+    near(field.size[0], 6e-3);
+    let frame = motif(&format!("{leaf}motif m {{ border: leaf; times: 3 x 2 }}"));
+    assert_eq!((frame.width(), frame.height()), (10, 8));
+    let text = format!("{leaf}knit k {{ motif: leaf; gauge: 22 x 30 per 10cm }}");
+    let Made::Knit(knit) = sound(&text) else { panic!("a knit") };
+    assert_eq!(knit.chart.palette().len(), 2);
+}
+
+#[test]
+fn what_is_wrong_with_a_motif_is_told() {
+    let leaf = "motif leaf { legend { \"x\": red }; picture: |x.|; size: 2mm x 1mm }\n";
+    for (text, wanted) in [
+        ("path \"M0 0 H5\" gold; threads: 5 x 5; size: 5mm x 5mm", "E0608"),
+        ("path \"M0 0 H5 V5 Z\" gold; threads: 5 x 5; size: 5mm x 5mm; of: leaf", "E0209"),
+        ("path \"M0 0 H5 V5 Z\" gold; size: 5mm x 5mm", "E0208"),
+        ("path \"M0 0 H1e8 V5 Z\" gold; frame: 5 x 5; threads: 5 x 5; size: 5mm x 5mm", "E0608"),
+        ("image \"none.png\"; colors: red; threads: 5 x 5; size: 5mm x 5mm", "E0903"),
+        ("of: leaf; size: 5mm x 5mm", "E0207"),
+        ("of: leaf; times: 4000 x 2", "E0601"),
+        ("border: m", "E0206"),
+        ("times: 2 x 2", "E0208"),
+    ] {
+        let text = format!("{leaf}motif m {{ {text} }}");
+        let told = made(&text).1;
+        assert_eq!(told.first().map(String::as_str), Some(wanted), "{text}: {told:?}");
     }
 }

@@ -161,6 +161,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             property("chart", "", "rows of stitches as seen on the face"),
             property("written", "", "rows in words: `|row 1: k2, *p1, k1; repeat from *|`"),
             action("knitscape", "PATH", "a chart of KnitScape: `knitscape \"lace.json\"`"),
+            property("motif", "MOTIF", "a motif, a stitch for each of its cells in its colour"),
             property("stitches", "NUMBER", "stitches cast on, where the rows do not say it"),
             property("gauge", "NUMBER x NUMBER per LENGTH", "wales x courses in a length"),
             property("worked", "flat|round", "in rows to and fro, or in the round =flat"),

@@ -7,9 +7,9 @@
 use super::noise;
 use super::strand::{Node, Strand};
 use super::tile::{Grid, Look};
-use crate::textile::Colour;
 use crate::textile::knit::{Knit, Stitch};
 use crate::textile::yarn::{Fibre, Yarn};
+use std::collections::BTreeMap;
 use std::f32::consts::PI;
 
 /// Sideways swing of the loop.
@@ -21,22 +21,8 @@ const RISE: f32 = 4.0 / 4.5;
 /// of its [palette](crate::textile::knit::Chart::palette); cells without a colour have the yarn's.
 pub fn looks(knit: &Knit, yarn: &Yarn, wales: usize) -> Vec<Look> {
     let length = knit.loop_length() * wales as f64;
-    let palette = colours(knit);
+    let palette = knit.chart.palette();
     palette.iter().map(|it| Look::of(yarn, it.unwrap_or(yarn.colour), length)).collect()
-}
-
-/// The colours of the cells, those that are never worked too.
-fn colours(knit: &Knit) -> Vec<Option<Colour>> {
-    let mut palette = knit.chart.palette();
-    for row in 0..knit.height() {
-        for column in 0..knit.width() {
-            let colour = knit.chart.colour(column, row);
-            if !palette.contains(&colour) {
-                palette.push(colour);
-            }
-        }
-    }
-    palette
 }
 
 /// Width of the yarn over the distance of wales: as thick as it is, but neither so thin that the
@@ -64,13 +50,15 @@ pub fn strands(
         _ => 0.6,
     };
     let relief = Relief::of(seen);
-    let palette = colours(knit);
+    let palette = knit.chart.palette();
+    let numbers: BTreeMap<_, usize> =
+        palette.iter().map(|colour| colour.map(|it| it.0)).zip(0..).collect();
     (0..courses)
         .flat_map(|row| {
             let loops = Loops { seen, wale, course, row, half, uneven, stitches };
             let number = |wale: usize| {
                 let colour = knit.chart.colour(wale % knit.width(), row % knit.height());
-                palette.iter().position(|known| *known == colour).unwrap_or(0)
+                numbers.get(&colour.map(|it| it.0)).copied().unwrap_or(0)
             };
             let mut strands: Vec<Strand> = Vec::new();
             let mut along = 0.0;

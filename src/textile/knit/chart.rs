@@ -3,7 +3,7 @@
 use super::symbol::{Cable, Symbol};
 use crate::textile::Colour;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
 /// How yarns of several colours are carried.
@@ -157,32 +157,27 @@ impl Chart {
         self.colours.as_ref()?.get(row)?.get(column).copied().flatten()
     }
 
-    /// The colours in the order in which they are first knitted, from the right of each row. None
-    /// stands for the yarn of the fabric.
+    /// The colours of all cells, in the order in which they are first reached: row by row, each
+    /// from the right. None stands for the yarn of the fabric.
     pub fn palette(&self) -> Vec<Option<Colour>> {
-        let mut found: Vec<Option<Colour>> = Vec::new();
-        for row in 0..self.height() {
-            for colour in self.worked_colours(row) {
-                if !found.contains(&colour) {
-                    found.push(colour);
-                }
-            }
-        }
-        found
+        let cells = |row| (0..self.width()).rev().map(move |column| (column, row));
+        let cells = (0..self.height()).flat_map(cells);
+        self.different(cells.filter(|&(column, row)| self.rows[row][column] != Symbol::NoStitch))
     }
 
     /// The colours worked in a row, in the order of the hands: from the right. A stitch that is
     /// slipped is not worked.
     pub fn worked_colours(&self, row: usize) -> Vec<Option<Colour>> {
-        let mut found: Vec<Option<Colour>> = Vec::new();
-        let Some(cells) = self.rows.get(row) else { return found };
-        for (column, symbol) in cells.iter().enumerate().rev() {
-            let colour = self.colour(column, row);
-            if !matches!(symbol, Symbol::Slip | Symbol::NoStitch) && !found.contains(&colour) {
-                found.push(colour);
-            }
-        }
-        found
+        let Some(cells) = self.rows.get(row) else { return Vec::new() };
+        let worked = |column: &usize| !matches!(cells[*column], Symbol::Slip | Symbol::NoStitch);
+        self.different((0..cells.len()).rev().filter(worked).map(|column| (column, row)))
+    }
+
+    /// The colours of these cells, each where it comes first.
+    fn different(&self, cells: impl Iterator<Item = (usize, usize)>) -> Vec<Option<Colour>> {
+        let mut known = BTreeSet::new();
+        let colours = cells.map(|(column, row)| self.colour(column, row));
+        colours.filter(|colour| known.insert(colour.map(|it| it.0))).collect()
     }
 
     /// How many there are of each symbol, cables counted once.
@@ -226,20 +221,23 @@ impl Chart {
             return None;
         }
         let mut longest: Option<Float> = None;
-        for row in 0..self.height() {
-            let Some(cells) = self.rows.get(row) else { continue };
-            let worked: Vec<Option<Option<Colour>>> = (0..cells.len())
-                .filter(|&column| cells[column] != Symbol::NoStitch)
-                .map(|column| (cells[column] != Symbol::Slip).then(|| self.colour(column, row)))
-                .collect();
-            for colour in self.worked_colours(row) {
-                let places: Vec<usize> =
-                    (0..worked.len()).filter(|&at| worked[at] == Some(colour)).collect();
-                let (Some(&first), Some(&last)) = (places.first(), places.last()) else { continue };
-                let round = worked.len() - last - 1 + first;
-                let between = places.windows(2).map(|two| two[1] - two[0] - 1);
-                let stitches = between.chain([round]).max().unwrap_or(0);
+        for (row, cells) in self.rows.iter().enumerate() {
+            let there: Vec<usize> =
+                (0..cells.len()).filter(|&column| cells[column] != Symbol::NoStitch).collect();
+            // Where each colour is worked first and last so far, and its longest float.
+            let mut runs: BTreeMap<Option<[u8; 4]>, [usize; 3]> = BTreeMap::new();
+            for (at, &column) in there.iter().enumerate() {
+                if cells[column] != Symbol::Slip {
+                    let colour = self.colour(column, row).map(|it| it.0);
+                    let [_, last, most] = runs.entry(colour).or_insert([at, at, 0]);
+                    *most = (*most).max((at - *last).saturating_sub(1));
+                    *last = at;
+                }
+            }
+            for (colour, [first, last, most]) in runs {
+                let stitches = most.max(there.len() - last - 1 + first);
                 if stitches > longest.map_or(0, |float| float.stitches) {
+                    let colour = colour.map(Colour);
                     longest = Some(Float { row: row + 1, stitches, colour });
                 }
             }

@@ -5,9 +5,9 @@ use crate::textile::Colour;
 use std::io::Cursor;
 
 /// Pixels across or down that a picture may have.
-pub const LARGEST: u32 = 8192;
+pub const LARGEST: u32 = 4096;
 /// Memory that decoding may take, bytes.
-const MOST_BYTES: u64 = 512 << 20;
+const MOST_BYTES: u64 = 256 << 20;
 
 /// A picture as linear light with opacity, the light multiplied by it.
 #[derive(Clone, Debug)]
@@ -49,6 +49,11 @@ pub fn decoded(bytes: &[u8]) -> Result<Picture, String> {
 }
 
 impl Picture {
+    /// Its width and height in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
     /// The picture in so many columns and rows, bottom row first: each cell is the colour of
     /// `yarns` nearest to the mean light of what it covers, by the distance in CIELAB (CIE 1976,
     /// white D65); none where more than half of it is transparent, or where the ground is nearest.
@@ -60,8 +65,10 @@ impl Picture {
     ) -> Vec<Vec<Option<Colour>>> {
         let [columns, rows] = cells;
         let of_yarn = |yarn: &Colour| (Some(*yarn), lab(yarn.linear()));
-        let mut known: Vec<(Option<Colour>, [f64; 3])> = yarns.iter().map(of_yarn).collect();
+        // The ground goes before a yarn of its colour.
+        let mut known: Vec<(Option<Colour>, [f64; 3])> = Vec::new();
         known.extend(ground.map(|ground| (None, lab(ground.linear()))));
+        known.extend(yarns.iter().map(of_yarn));
         let nearest = |light: [f64; 3]| {
             let seen = lab(light);
             let far = |other: &[f64; 3]| -> f64 {

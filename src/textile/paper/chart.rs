@@ -124,9 +124,9 @@ fn legend(page: &mut Page, chart: &Chart, yarn: Option<Colour>, corner: [f64; 2]
     };
     for symbol in counts.keys() {
         let width = if let Symbol::Cable(cable) = symbol { cable.width() } else { 1 };
-        let (word, meaning) = (symbol.word(), symbol.meaning());
+        let (word, meaning) = (symbol.word().replace('_', " "), symbol.meaning());
         let text = if word == meaning { word } else { format!("{word}  {meaning}") };
-        row(&mut small, text.replace('_', " "), &|small, y| {
+        row(&mut small, text, &|small, y| {
             let ground = if *symbol == Symbol::NoStitch { NOTHING } else { PAPER };
             small.fill(x, y, wide * width as f64, high, ground);
             let area = Area { x, y, width: wide * width as f64, height: high };
@@ -134,14 +134,11 @@ fn legend(page: &mut Page, chart: &Chart, yarn: Option<Colour>, corner: [f64; 2]
             small.symbol(*symbol, x, y, width, PAPER);
         });
     }
-    let mut colours: Vec<Colour> = Vec::new();
-    for at in 0..chart.height() {
-        for column in 0..chart.width() {
-            colours.extend(chart.colour(column, at).or(yarn));
-        }
-        colours.sort_by_key(|colour| colour.0);
-        colours.dedup();
-    }
+    // A picture of a thousand colours explains itself.
+    const COLOURS: usize = 64;
+    let mut colours: Vec<Colour> =
+        chart.palette().into_iter().filter_map(|colour| colour.or(yarn)).collect();
+    colours.truncate(COLOURS);
     for colour in colours {
         let [red, green, blue, _] = colour.0;
         row(&mut small, format!("#{red:02x}{green:02x}{blue:02x}"), &|small, y| {
