@@ -74,7 +74,10 @@ impl Block {
                 // Marks of the pages of messages, which have their own tests.
                 "wrong" | "right" => {}
                 word if is_code(word) => block.codes.push(word.to_owned()),
-                word if [".garment", ".wif", ".json", ".ppm"].iter().any(|end| word.ends_with(end)) => {
+                word if [".garment", ".wif", ".json", ".ppm"]
+                    .iter()
+                    .any(|end| word.ends_with(end)) =>
+                {
                     block.file = Some(word.to_owned())
                 }
                 other => panic!("line {line}: what does `{other}` say of a block?"),

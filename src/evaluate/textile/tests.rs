@@ -4,8 +4,8 @@ use crate::evaluate::item::{ItemId, Made};
 use crate::evaluate::{Evaluator, module};
 use crate::garment::sari::{BandFill, Sari};
 use crate::garment::scene::BodyRequest;
-use crate::textile::fabric::{Fabric, Structure};
 use crate::textile::Colour;
+use crate::textile::fabric::{Fabric, Structure};
 use crate::textile::knit::{Cable, Knit, Lean, Stitch, Symbol};
 use crate::textile::motif::Motif;
 use crate::textile::weave::Weave;
@@ -360,8 +360,10 @@ fn motif(text: &str) -> Motif {
 
 #[test]
 fn motifs_are_drawn_by_paths_on_the_threads_of_a_cloth() {
-    let path = "path \"M0 0 H10 V10 H0 Z M2 2 H8 V8 H2 Z\" gold evenodd; path \"M4 4 H6 V6 H4 Z\" red";
-    let ring = motif(&format!("motif m {{ {path}; frame: 10 x 10; threads: 10 x 10; size: 1cm x 1cm }}"));
+    let path =
+        "path \"M0 0 H10 V10 H0 Z M2 2 H8 V8 H2 Z\" gold evenodd; path \"M4 4 H6 V6 H4 Z\" red";
+    let ring =
+        motif(&format!("motif m {{ {path}; frame: 10 x 10; threads: 10 x 10; size: 1cm x 1cm }}"));
     let woven = ring.rows.iter().flatten().filter(|cell| cell.is_some()).count();
     assert_eq!(woven, 100 - 36 + 4);
     assert_ne!(ring.rows[0][0], ring.rows[4][4]);
