@@ -353,6 +353,9 @@ fn yarn_colour(fabric: &Fabric) -> Light3 {
             let [warp, weft] = [warp, weft].map(|thread| tone::decoded_colour(thread.colour.0));
             warp * share + weft * (1.0 - share)
         }
-        Structure::Knitted { yarn, .. } => tone::decoded_colour(yarn.colour.0),
+        Structure::Knitted { knit, yarn } => match knit.chart.mean_light(yarn.colour) {
+            Some([red, green, blue]) => Light3::new(red as f32, green as f32, blue as f32),
+            None => tone::decoded_colour(yarn.colour.0),
+        },
     }
 }

@@ -140,7 +140,9 @@ impl Fabric {
                 let (warp, weft) = (warp.colour.linear(), weft.colour.linear());
                 [0, 1, 2].map(|n| share * warp[n] + (1.0 - share) * weft[n])
             }
-            Structure::Knitted { yarn, .. } => yarn.colour.linear(),
+            Structure::Knitted { knit, yarn } => {
+                knit.chart.mean_light(yarn.colour).unwrap_or_else(|| yarn.colour.linear())
+            }
         }
     }
 }

@@ -180,6 +180,21 @@ impl Chart {
         colours.filter(|colour| known.insert(colour.map(|it| it.0))).collect()
     }
 
+    /// The light that its cells send together, linear, with `yarn` where they say no colour; none
+    /// where none says one.
+    pub fn mean_light(&self, yarn: Colour) -> Option<[f64; 3]> {
+        self.colours.as_ref()?;
+        let mut sum = [0.0; 3];
+        for row in 0..self.height() {
+            for column in 0..self.width() {
+                let light = self.colour(column, row).unwrap_or(yarn).linear();
+                (0..3).for_each(|n| sum[n] += light[n]);
+            }
+        }
+        let cells = (self.width() * self.height()) as f64;
+        Some(sum.map(|light| light / cells))
+    }
+
     /// How many there are of each symbol, cables counted once.
     pub fn counts(&self) -> BTreeMap<Symbol, usize> {
         let mut found = BTreeMap::new();
@@ -329,6 +344,8 @@ mod tests {
         let mut chart = Chart::new(vec![vec![Knit; 6]], Some(colours.clone())).unwrap();
         assert_eq!(chart.longest_float().unwrap().stitches, 3);
         assert_eq!(chart.palette(), [BLUE, RED]);
+        let [red, _, blue] = chart.mean_light(Colour([0; 4])).unwrap();
+        assert!((blue / red - 2.0).abs() < 1e-12, "four of six cells are blue");
         assert_eq!(chart.patches(), 4);
         let slipped = Chart::new(vec![vec![Knit, Slip, Slip, Slip, Slip, Slip]], Some(colours));
         assert_eq!(slipped.unwrap().longest_float().unwrap().stitches, 5);
