@@ -118,7 +118,7 @@ fn what_cannot_be_read_is_told_with_its_place() {
 #[test]
 fn what_is_written_reads_back() {
     let whole = ";!knitout-2\n;;Machine: SWG091N2\n;;X-Note:  two  blanks \n;;Carriers: A 2\n\n\
-                 ; a word\nin A ;first\nstitch 7.5 -2\nrack -0.75\nrack 0\nmiss - fs3 A\n\
+                 \x20;;Gauge: 15 is no header here\n; a word\nin A ;first\nstitch 7.5 -2\nrack -0.75\nrack 0\nmiss - fs3 A\n\
                  split + f1 b1 A 2\namiss f1\npause look here\nx-stitch-number 101\n;;late: 1\n";
     let (program, _) = read(FileId(0), whole);
     let program = program.unwrap();

@@ -7,8 +7,14 @@ use std::fmt::Write;
 /// back as the same program.
 pub fn write(program: &Program) -> String {
     let mut out = format!(";!knitout-{}\n", program.version);
+    let mut begun = false;
     for line in &program.lines {
+        begun |= matches!(line.content, Content::Operation(_));
         match &line.content {
+            // What is not at the beginning of its line is no header.
+            Content::Nothing if !begun && line.comment.as_ref().is_some_and(is_like_header) => {
+                out.push(' ');
+            }
             Content::Nothing => {}
             // Writing to a string cannot fail.
             Content::Header { name, value } => {
@@ -27,6 +33,11 @@ pub fn write(program: &Program) -> String {
         out.push('\n');
     }
     out
+}
+
+/// Whether a comment would be read as a header.
+fn is_like_header(comment: &String) -> bool {
+    comment.starts_with(';') && comment.contains(':')
 }
 
 fn said(out: &mut String, program: &Program, operation: &Operation) {
