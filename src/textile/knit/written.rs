@@ -7,9 +7,12 @@
 //! numbers, `[…] 3 times`, and at most one repeat that goes as often as the stitches allow:
 //! `*…; repeat from * to last 2 sts`, or short `*…*`. `repeat rows 1-4` works rows again.
 
+mod words;
+
 use super::chart::Chart;
 use super::symbol::{Cable, Lean, Symbol};
 use std::ops::Range;
+use words::{Reader, Token};
 
 /// What is wrong with a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,88 +135,10 @@ enum Part {
     Open(Vec<Part>, Option<usize>),
 }
 
-struct Reader<'t> {
-    line: usize,
-    text: &'t str,
-    at: usize,
-}
-
-/// A word or sign of a row.
-#[derive(Clone, Debug, PartialEq)]
-struct Token {
-    text: String,
-    at: Range<usize>,
-}
-
 const STITCHES: &str = "stitches are k, p, sl, yo, k2tog, ssk, k3tog, sssk, p2tog, ssp, p3tog, \
                         cdd, m1l, m1r, mb, tuck, and cables such as `2/2 LC` and `2/1 RPC`";
 
 impl Reader<'_> {
-    fn rest(&self) -> &str {
-        self.text.get(self.at..).unwrap_or("")
-    }
-
-    fn objection(
-        &self,
-        code: &'static str,
-        at: Range<usize>,
-        message: String,
-        help: &str,
-    ) -> Objection {
-        Objection { code, line: self.line, at, message, help: help.to_owned() }
-    }
-
-    fn too_large(&self) -> Objection {
-        let message = format!("a chart has at most {0} rows and stitches", Chart::LARGEST);
-        self.objection("E0601", 0..self.text.len(), message, "leave some out")
-    }
-
-    /// The next word, number or sign, which is passed.
-    fn next(&mut self) -> Option<Token> {
-        let token = self.peek()?;
-        self.at = token.at.end;
-        Some(token)
-    }
-
-    fn peek(&self) -> Option<Token> {
-        let mut letters = self.rest().char_indices();
-        let (start, first) = letters.find(|(_, c)| !c.is_whitespace())?;
-        let start = self.at + start;
-        let word = |c: char| c.is_ascii_alphanumeric() || c == '/' || c == '_';
-        let length = if word(first) {
-            let rest = self.text.get(start..).unwrap_or("");
-            rest.find(|c| !word(c)).unwrap_or(rest.len())
-        } else {
-            first.len_utf8()
-        };
-        let text = self.text.get(start..start + length).unwrap_or("").to_lowercase();
-        Some(Token { text, at: start..start + length })
-    }
-
-    /// Passes the next token if it is one of these.
-    fn passes(&mut self, words: &[&str]) -> bool {
-        let found = self.peek().filter(|token| words.contains(&&*token.text));
-        if let Some(token) = &found {
-            self.at = token.at.end;
-        }
-        found.is_some()
-    }
-
-    fn number(&mut self) -> Option<usize> {
-        let token = self.peek()?;
-        let number: usize = token.text.parse().ok()?;
-        self.at = token.at.end;
-        Some(number.min(1_000_000))
-    }
-
-    fn wanted(&self, what: &str, help: &str) -> Objection {
-        let (found, at) = match self.peek() {
-            Some(token) => (format!("`{}`", token.text), token.at),
-            None => ("the end of the row".to_owned(), self.text.len()..self.text.len()),
-        };
-        self.objection("E0607", at, format!("{what} is wanted, here is {found}"), help)
-    }
-
     /// `row 1 (RS):`, `rows 2, 4 and 6:`, `rounds 1-3:`, `repeat rows 1-4 twice`. `before` rows
     /// are known.
     fn head(&mut self, before: usize, round: bool) -> Result<Head, Objection> {
