@@ -78,31 +78,41 @@ fn path_of(source: &Source, from: &str) -> Option<String> {
     }
 }
 
-/// Modules of the library that were read, by their names and numbers. Their texts are parts of
-/// the program, and an editor asks for them again after every letter.
-static LIBRARY_READ: Mutex<BTreeMap<(String, FileId), Arc<File>>> = Mutex::new(BTreeMap::new());
+/// A text that was read, with what it says wrong.
+struct Read {
+    text: String,
+    tree: Arc<File>,
+    told: Vec<Diagnostic>,
+}
 
-/// So many of them are kept.
-const KEPT: usize = 256;
+/// Texts that were read, by their names and numbers: an editor asks for the library and all files
+/// beside its own again after every letter, and a garment is drafted anew for each of its sizes.
+static READ: Mutex<BTreeMap<(String, FileId), Read>> = Mutex::new(BTreeMap::new());
 
-/// Reads a file.
+/// So long may they be together, in bytes.
+const KEPT: usize = 4 << 20;
+
+/// Reads a file, unless its text is still known.
 fn read(id: FileId, path: &str, text: &str) -> (Arc<File>, Vec<Diagnostic>) {
-    let own = !path.starts_with("std::");
     let key = (path.to_owned(), id);
-    if !own {
-        let kept = LIBRARY_READ.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(tree) = kept.get(&key) {
-            return (tree.clone(), Vec::new());
+    {
+        let kept = READ.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = kept.get(&key).filter(|known| known.text == text) {
+            return (known.tree.clone(), known.told.clone());
         }
     }
     let (mut tree, told) = parse(id, text);
     record::read_settings(&mut tree.statements);
     let tree = Arc::new(tree);
-    if !own && told.is_empty() {
-        let mut kept = LIBRARY_READ.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.len() < KEPT {
-            kept.insert(key, tree.clone());
-        }
+    let mut kept = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    kept.remove(&key);
+    let length: usize = kept.values().map(|known| known.text.len()).sum();
+    if length + text.len() > KEPT {
+        kept.clear();
+    }
+    if text.len() <= KEPT {
+        let read = Read { text: text.to_owned(), tree: tree.clone(), told: told.clone() };
+        kept.insert(key, read);
     }
     (tree, told)
 }

@@ -81,13 +81,14 @@ fn crossing_among(
     ends: &[(usize, usize)],
     asked: &[usize],
 ) -> Option<Crossing> {
-    let stretches: Vec<_> = chords.iter().map(|chord| chord.ends).collect();
-    let places: Vec<_> = asked.iter().map(|&number| stretches[number]).collect();
+    let places: Vec<_> = asked.iter().map(|&number| chords[number].ends).collect();
     let near = Nearby::new(&places);
+    let mut others = Vec::new();
     for &number in asked {
         let chord = &chords[number];
         let mut met: Option<(f64, usize, f64)> = None;
-        for other in near.around(chord.ends, TOUCH) {
+        near.around(chord.ends, TOUCH, &mut others);
+        for &other in &others {
             let other = asked[other as usize];
             let (first, last) = ends[number];
             // Neighbours share an end, and lie on each other only if the line turns back.
@@ -95,11 +96,11 @@ fn crossing_among(
             let found = if other <= number {
                 None
             } else if other == next {
-                turns_back(chord.ends, stretches[other]).then_some((1.0, 0.0))
+                turns_back(chord.ends, chords[other].ends).then_some((1.0, 0.0))
             } else if number == first && other == last {
-                turns_back(stretches[other], chord.ends).then_some((0.0, 1.0))
+                turns_back(chords[other].ends, chord.ends).then_some((0.0, 1.0))
             } else {
-                meeting(chord.ends, stretches[other], TOUCH)
+                meeting(chord.ends, chords[other].ends, TOUCH)
             };
             if let Some((s, t)) = found
                 && met.is_none_or(|(best, ..)| s < best)
@@ -130,16 +131,24 @@ fn doubtful(loops: &[Vec<BezPath>], chords: &[Chord]) -> Vec<usize> {
         return (0..chords.len()).collect();
     }
     let mut found = Vec::new();
-    for (number, chord) in chords.iter().enumerate() {
-        let own = (chord.ring, chord.piece, chord.segment);
-        let (a, b) = chord.ends;
-        let around = Rect::from_points((a[0], a[1]), (b[0], b[1])).inflate(TOUCH, TOUCH);
-        let meets = |&(of, hull, onward): &((usize, usize, usize), Rect, bool)| {
-            if of == own { !onward } else { hull.overlaps(around) }
-        };
-        if boxes.iter().any(meets) {
-            found.push(number);
+    let mut first = 0;
+    for &(own, around, own_onward) in &boxes {
+        let of_curve = |chord: &&Chord| (chord.ring, chord.piece, chord.segment) == own;
+        let count = chords[first..].iter().take_while(of_curve).count();
+        // A box away from that around the whole curve is away from all its chords.
+        let near: Vec<Rect> = boxes
+            .iter()
+            .filter(|&&(of, hull, _)| of != own && hull.overlaps(around))
+            .map(|&(_, hull, _)| hull)
+            .collect();
+        for number in first..first + count {
+            let (a, b) = chords[number].ends;
+            let around = Rect::from_points((a[0], a[1]), (b[0], b[1])).inflate(TOUCH, TOUCH);
+            if !own_onward || near.iter().any(|hull| hull.overlaps(around)) {
+                found.push(number);
+            }
         }
+        first += count;
     }
     found
 }
@@ -184,6 +193,7 @@ fn chord(chords: &mut Vec<Chord>, (ring, piece, segment): (usize, usize, usize),
     // A chord over the share 1/n keeps within |second derivative| / 8n² of its curve.
     let count = (bend / (8.0 * CHORD)).sqrt().ceil().clamp(1.0, MOST_CHORDS) as usize;
     let mut start = place(curve.eval(0.0));
+    chords.reserve(count);
     for step in 0..count {
         let share = (step as f64 / count as f64, (step + 1) as f64 / count as f64);
         let end = place(curve.eval(share.1));

@@ -71,6 +71,15 @@ pub fn meeting(
     tolerance: f64,
 ) -> Option<(f64, f64)> {
     let (ab, cd) = (from_to(a, b), from_to(c, d));
+    // Most stretches that are asked about lie beside each other.
+    let slack = tolerance.max(1e-9 * (ab[0].abs() + ab[1].abs() + cd[0].abs() + cd[1].abs()));
+    let apart = |axis: usize| {
+        a[axis].max(b[axis]) + slack < c[axis].min(d[axis])
+            || c[axis].max(d[axis]) + slack < a[axis].min(b[axis])
+    };
+    if apart(0) || apart(1) {
+        return None;
+    }
     let cross = ab[0] * cd[1] - ab[1] * cd[0];
     if cross != 0.0 {
         let ac = from_to(a, c);

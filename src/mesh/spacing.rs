@@ -142,6 +142,7 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
     }
     let near = Nearby::new(&stretches);
     let narrow = NarrowCorners::new(rings);
+    let mut others = Vec::new();
     for (number, &(a, b)) in stretches.iter().enumerate() {
         let (first, end, around) = ends[number];
         let next = if number + 1 == end { first } else { number + 1 };
@@ -150,7 +151,8 @@ pub fn faults(rings: &[Vec<Place>]) -> Fault {
         let reach = SLENDER * length;
         let middle = between(a, b, 0.5);
         let mut width = f64::INFINITY;
-        for other in near.around((a, b), reach) {
+        near.around((a, b), reach, &mut others);
+        for &other in &others {
             let other = other as usize;
             if other == number || other == next || other == before {
                 continue;
