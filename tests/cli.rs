@@ -188,7 +188,8 @@ scene hasty {
     let output =
         darzi(folder.path(), &["drape", "hasty.garment", "-o", "x.obj", "--stats", "s.json"]);
     assert_eq!(code(&output), 3, "{}", told(&output));
-    assert!(told(&output).contains("the drape did not reach"));
+    assert!(told(&output).contains("E0803"), "{}", told(&output));
+    assert!(told(&output).contains("the drape did not reach what the file asks: not at rest"));
     let stats = std::fs::read_to_string(folder.path().join("s.json")).unwrap();
     assert!(stats.contains("\"reason\": \""));
 }

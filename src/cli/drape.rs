@@ -5,6 +5,7 @@ use super::bar::Bar;
 use super::cache::Cache;
 use super::project::Project;
 use super::{Input, Stop, Work, output};
+use crate::diagnostic::Diagnostic;
 use crate::drape::draped::{Draped, Verdict};
 use crate::garment::Garment;
 use crate::mesh::compiled::Compiled;
@@ -49,7 +50,7 @@ impl Drape {
         } else {
             self.write_obj(&compiled, &draped)?;
         }
-        verdict(&draped)
+        verdict(&project, &garment, &draped)
     }
 
     fn write_obj(&self, compiled: &Compiled, draped: &Draped) -> Result<(), Stop> {
@@ -129,13 +130,34 @@ pub(super) fn dress(
     Ok((compiled, draped))
 }
 
-/// What the file asked of the drape, and whether it came to pass.
-pub(super) fn verdict(draped: &Draped) -> Result<(), Stop> {
-    match (&draped.stats.reason, draped.stats.verdict) {
-        (Some(reason), _) => Err(Stop::Drape(reason.clone())),
-        (None, Verdict::FellOff) => Err(Stop::Drape("the garment fell off".to_owned())),
-        (None, Verdict::Penetrating) => Err(Stop::Drape("cloth is left inside a body".to_owned())),
-        (None, Verdict::Tangled) => Err(Stop::Drape("the cloth passes through itself".to_owned())),
-        (None, Verdict::Settled | Verdict::StillMoving) => Ok(()),
-    }
+/// Tells what the file asked of the drape and did not come to pass.
+///
+/// # Errors
+/// [`Stop::Drape`] if there is such a thing.
+pub(super) fn verdict(project: &Project, garment: &Garment, draped: &Draped) -> Result<(), Stop> {
+    let stats = &draped.stats;
+    let found = match stats.verdict {
+        Verdict::Penetrating => Some(("E0802", "cloth is left inside a body")),
+        Verdict::FellOff => Some(("E0809", "the garment fell off")),
+        Verdict::Tangled => Some(("E0808", "the cloth passes through itself")),
+        Verdict::Settled | Verdict::StillMoving => None,
+    };
+    // The reason may be what was found, in more words, or something else that came before it.
+    let reason = stats.reason.as_deref();
+    let (fuller, other) = match (found, reason) {
+        (Some((_, found)), Some(reason)) if reason.starts_with(found) => (Some(reason), None),
+        _ => (None, reason),
+    };
+    let missed = other.map(|reason| ("E0803", reason));
+    let found = found.map(|(code, found)| (code, fuller.unwrap_or(found)));
+    let told: Vec<Diagnostic> = missed
+        .into_iter()
+        .chain(found)
+        .map(|(code, what)| {
+            let message = format!("the drape did not reach what the file asks: {what}");
+            Diagnostic::new(code, message).at(garment.span, "draped here")
+        })
+        .collect();
+    project.tell(&told);
+    if told.is_empty() { Ok(()) } else { Err(Stop::Drape) }
 }

@@ -166,8 +166,10 @@ enum Stop {
     Input,
     /// The call is wrong, or a file cannot be written.
     Call(String),
-    /// The drape did not reach what the file asks.
-    Drape(String),
+    /// The drape did not reach what the file asks; already told.
+    Drape,
+    /// A specimen did not come to what its test asks.
+    Test(String),
 }
 
 /// Writes to standard output. A reader that has seen enough is no failure.
@@ -204,8 +206,9 @@ pub fn main() -> ExitCode {
             eprintln!("error: {why}");
             ExitCode::from(2)
         }
-        Err(Stop::Drape(why)) => {
-            eprintln!("the drape did not reach what the file asks: {why}");
+        Err(Stop::Drape) => ExitCode::from(3),
+        Err(Stop::Test(why)) => {
+            eprintln!("the test did not come to its end: {why}");
             ExitCode::from(3)
         }
     }

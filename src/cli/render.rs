@@ -79,6 +79,6 @@ impl Render {
             &mut Bar::new(),
         );
         output::write_png(&self.output, &sheet)?;
-        drape::verdict(&draped)
+        drape::verdict(&project, &garment, &draped)
     }
 }

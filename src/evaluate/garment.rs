@@ -194,6 +194,7 @@ impl<'t> Evaluator<'t> {
         self.pictures(&fields, &mut making);
         if drawn && sewn && clear {
             self.led(&mut making);
+            self.held(&making, &fields);
         }
         (!making.broken).then_some(making.garment)
     }
@@ -492,6 +493,20 @@ impl<'t> Evaluator<'t> {
                 Diagnostic::new("E0801", format!("`{name}` is placed nowhere"))
                     .at(span, "no seam leads to a placed panel")
                     .help(format!("such as `place {name} before lady.waist gap 3cm`")),
+            );
+        }
+    }
+
+    /// A garment without wearer of which nothing is pinned is told of (W0801).
+    fn held(&mut self, making: &Making, fields: &Fields<'t>) {
+        let garment = &making.garment;
+        let said = ["wearer", "part", "pin", "fix", "attach"];
+        let sound = !making.broken && !garment.panels.is_empty();
+        if sound && garment.bodies.is_empty() && !said.iter().any(|word| fields.mentions(word)) {
+            self.tell(
+                Diagnostic::new("W0801", format!("nothing holds `{}`", garment.name))
+                    .at(garment.span, "no wearer, and no `pin` or `fix`")
+                    .help("such as `wearer lady = female { size: EU 38 }`"),
             );
         }
     }

@@ -24,6 +24,7 @@ pub mod item;
 mod module;
 mod notch;
 mod operator;
+mod order;
 pub mod panel;
 mod part;
 mod patch;

@@ -145,7 +145,8 @@ impl<'t> Evaluator<'t> {
             }
         }
         self.sewn_twice(&sewn, making);
-        sound && wrong.is_empty()
+        let ordered = self.seams_lie_in_order(making);
+        sound && ordered && wrong.is_empty()
     }
 
     /// The edges named on one side of a seam.

@@ -155,7 +155,7 @@ impl Test {
 
 fn stop(failure: Failure) -> Stop {
     match failure {
-        Failure::Unfit(why) => Stop::Drape(why),
+        Failure::Unfit(why) => Stop::Test(why),
         // A specimen is cut by the program's own text: what is wrong is the call.
         Failure::Cut(told) => {
             let why = told.first().map_or("", |it: &Diagnostic| &it.message);
