@@ -274,17 +274,21 @@ impl<'t> Evaluator<'t> {
     }
 }
 
-/// How far inside of an edge the middle of its placket lies, m.
+/// How far inside of an edge the middle of its placket lies, m; that over a slit lies on its lips.
 fn on_placket(edge: &EdgeRef, making: &Making) -> Option<f64> {
     let found = edge.find().into_iter().next()?;
     let number = making.numbers.get(&(edge.draft.item, found.piece))?;
     let runs = edge.runs(&found);
     let mut bands = making.garment.panels.get(*number)?.bands.iter();
-    let lies = |band: &&Band| {
+    let inset = |band: &Band| {
         let same = |run: &Run| runs.iter().any(|r| (r.ring, r.piece) == (run.ring, run.piece));
-        band.kind == BandKind::Placket && band.runs.iter().any(same)
+        match band.kind {
+            BandKind::Placket if band.runs.iter().any(same) => Some(band.width / 2.0),
+            BandKind::Strip if band.runs.iter().any(same) => Some(0.0),
+            _ => None,
+        }
     };
-    bands.find(lies).map(|band| band.width / 2.0)
+    bands.find_map(inset)
 }
 
 /// The place inside an edge, `way` along it as sewn and `inset` from it, m.

@@ -176,6 +176,8 @@ pub enum BandKind {
     Interfacing,
     /// Doubled cloth on which closures lie.
     Placket,
+    /// Half of the two doubled strips that lie over a slit, on one of its lips.
+    Strip,
 }
 
 /// A mark on the outline.

@@ -1,5 +1,5 @@
 //! Further cloth along the edges of a piece: `hem`, `facing`, `interfacing`, `placket`, said in a panel
-//! or of edges of several panels in a garment.
+//! or of edges of several panels in a garment; facings and plackets of slits.
 
 use super::super::Evaluator;
 use super::super::fields::{Fields, Phrase};
@@ -15,6 +15,9 @@ use crate::units::Dimension;
 
 /// The words that lay further cloth along edges.
 pub(in super::super) const BANDS: &[&str] = &["hem", "facing", "interfacing", "placket"];
+
+/// Plies of the placket of a slit on each lip: two strips that lie over each other, both doubled.
+const STRIPS: u32 = 4;
 
 /// The narrowest and the widest band, m.
 const WIDTH: (f64, f64) = (1e-3, 0.5);
@@ -50,7 +53,7 @@ impl Cloth {
         let turned = match self.kind {
             BandKind::Hem => true,
             BandKind::Placket => self.fabric.is_none(),
-            BandKind::Facing | BandKind::Interfacing => false,
+            BandKind::Facing | BandKind::Interfacing | BandKind::Strip => false,
         };
         turned.then(|| self.width * f64::from(self.plies))
     }
@@ -69,12 +72,20 @@ impl<'t> Evaluator<'t> {
             bands.push(Banded { edges, cloth });
         }
         for phrase in fields.all("slit") {
-            let Some(width) = phrase.value("facing") else { continue };
-            let width = self.within_range(width, Dimension::LENGTH, WIDTH.0, WIDTH.1)?;
+            let (facing, placket) = (phrase.value("facing"), phrase.value("placket"));
+            let Some(said) = facing.or(placket) else { continue };
+            let width = self.within_range(said, Dimension::LENGTH, WIDTH.0, WIDTH.1)?;
             let edges = slit::lips(phrase).into_iter().flatten().collect();
-            let kind = BandKind::Facing;
-            let cloth = Cloth { span: phrase.span, kind, width, plies: 1, fabric: None };
-            bands.push(Banded { edges, cloth });
+            // A placket lies over the slit, half of it on each lip.
+            let (kind, width, plies) = match facing {
+                Some(_) => (BandKind::Facing, width, 1),
+                None => (BandKind::Strip, 0.5 * width, STRIPS),
+            };
+            let fabric = self.band_fabric(phrase)?;
+            bands.push(Banded {
+                edges,
+                cloth: Cloth { span: phrase.span, kind, width, plies, fabric },
+            });
         }
         Some(bands)
     }
@@ -83,10 +94,7 @@ impl<'t> Evaluator<'t> {
     fn band_cloth(&mut self, phrase: &Phrase<'t>) -> Option<Cloth> {
         let width = phrase.value("depth").or(phrase.value("width"))?;
         let width = self.within_range(width, Dimension::LENGTH, WIDTH.0, WIDTH.1)?;
-        let fabric = match phrase.value("of") {
-            Some(arg) => Some(self.item_among(arg, &[Kind::Fabric])?),
-            None => None,
-        };
+        let fabric = self.band_fabric(phrase)?;
         let kind = match phrase.word.name {
             "hem" => BandKind::Hem,
             "facing" => BandKind::Facing,
@@ -96,6 +104,14 @@ impl<'t> Evaluator<'t> {
         // A hem that is turned twice lies double, and a placket always does.
         let plies = if phrase.says("double") || kind == BandKind::Placket { 2 } else { 1 };
         Some(Cloth { span: phrase.span, kind, width, plies, fabric })
+    }
+
+    /// The fabric that a line names behind `of`, if it does; nothing where there is no such fabric.
+    fn band_fabric(&mut self, phrase: &Phrase<'t>) -> Option<Option<ItemId>> {
+        match phrase.value("of") {
+            Some(arg) => self.item_among(arg, &[Kind::Fabric]).map(Some),
+            None => Some(None),
+        }
     }
 
     /// Lays the bands of a garment along the edges of its panels; false if one is wrong.

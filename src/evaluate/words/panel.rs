@@ -80,8 +80,8 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             action(
                 "slit",
-                "along MARK [ facing LENGTH ]",
-                "cuts the cloth open along a mark; its lips are edges by the name of the mark, or the label, with 1 at the left of its course and 2 at the right; `facing` lays a band of further cloth along both",
+                "along MARK [ facing LENGTH | placket LENGTH ] [ of FABRIC ]",
+                "cuts the cloth open along a mark; its lips are edges by the name of the mark, or the label, with 1 at the left of its course and 2 at the right; `facing` lays a band of further cloth along both, `placket` two doubled strips over the slit",
             ),
             action(
                 "trim",

@@ -212,7 +212,7 @@ if hooded {
 #[test]
 fn a_comma_behind_the_last_of_a_list_goes() {
     let text = "let l = [\n1cm,\n2cm, // two\n]\nlet r = {a: [1,],\nb: f(2,)\n, }\n";
-    let new = "let l = [\n    1cm,\n    2cm // two\n]\nlet r = { a: [1],\n    b: f(2)\n}\n";
+    let new = "let l = [\n    1cm,\n    2cm     // two\n]\nlet r = { a: [1],\n    b: f(2)\n}\n";
     assert_eq!(formatted(text), new);
     assert!(format(FileId(0), "let p = (1cm, 2cm,)").is_err(), "a point has no such comma");
     assert!(format(FileId(0), "let l = [,]").is_err(), "nor has an empty list");
