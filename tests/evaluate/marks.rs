@@ -2,7 +2,7 @@
 
 use crate::garments::{length, sound, told as codes};
 use darzi::garment::Garment;
-use darzi::garment::panel::Panel;
+use darzi::garment::panel::{BandKind, Panel};
 use darzi::geometry::curve;
 use darzi::mesh::{Options, compile, validate::validate};
 
@@ -151,6 +151,47 @@ fn a_slit_along_the_fold_parts_an_unfolded_piece_in_its_middle() {
     assert!(lips.contains(&"left.opening1") && lips.contains(&"right.opening2"), "{lips:?}");
     lips_meet(&two, ["left.opening1", "left.opening2"]);
     lips_meet(&two, ["right.opening1", "right.opening2"]);
+}
+
+#[test]
+fn a_placket_lies_over_a_slit_and_its_buttons_on_the_lips() {
+    let text = "rectangle 50cm x 60cm; mark opening from (0, 60cm) { line to (0, 34cm) }
+                slit along opening placket 3cm of denim";
+    let open = garment(text, "button p.opening1 over p.opening2 count 4 every 6cm");
+    let panel = &open.panels[0];
+    for (band, lip) in panel.bands.iter().zip(["opening1", "opening2"]) {
+        assert_eq!((band.kind, band.plies, band.width), (BandKind::Strip, 4, 0.015));
+        assert_eq!(open.fabrics[band.fabric].name, "denim");
+        assert!((length(&band.runs) - edge(panel, lip)).abs() < 1e-9);
+    }
+    assert_eq!(panel.bands.len(), 2);
+    assert!(panel.edges.iter().all(|edge| edge.allowance == 0.01), "nothing is cut on");
+    // Each button joins two places a slit's width apart.
+    let pairs = &open.stitches[0].pairs;
+    assert_eq!(pairs.len(), 4);
+    for [(_, a), (_, b)] in pairs {
+        assert!((a[0] - b[0]).abs() < 2.1e-4 && (a[1] - b[1]).abs() < 1e-3, "{a:?} {b:?}");
+    }
+    lips_meet(&open, ["opening1", "opening2"]);
+    let slit = "rectangle 50cm x 60cm; mark m from (0, 60cm) { line to (0, 34cm) }; slit along m ";
+    assert_eq!(told(&format!("{slit}placket 80cm"), ""), ["E0303"]);
+    assert_eq!(told(&format!("{slit}placket 3cm facing 3cm"), ""), ["E0209"]);
+}
+
+#[test]
+fn a_piece_sewn_to_a_patch_is_led_by_it() {
+    let text = |seam: &str| {
+        codes(&format!(
+            "garment g {{ fabric: cotton; wearer l = female {{ size: EU 38 }}
+             panel front {{ rectangle 50cm x 60cm }}
+             panel pocket {{ rectangle 16cm x 18cm }}
+             panel frill {{ rectangle 16cm x 5cm }}
+             patch pocket on front at (8cm, 20cm) open top
+             {seam}; place front before l.waist }}"
+        ))
+    };
+    assert_eq!(text("seam pocket.top -> frill.bottom"), Vec::<String>::new());
+    assert_eq!(text(""), ["E0801"]);
 }
 
 #[test]
