@@ -20,6 +20,7 @@ garment skirt {
     seam front.side -> back.side
     seam front.fold -> back.fold
     place front at (0, 1m, 0)
+    wearer lady = female { size: EU 38 }
 }
 ";
 
