@@ -35,13 +35,13 @@ impl Reader<'_> {
                 Rule::doc => self.doc(&mut row, part),
                 Rule::surplus => self.surplus(part),
                 Rule::stray => {
-                    let open = self.stray(&mut row, part.clone());
+                    let open = self.stray(&mut row, *part);
                     if open > 0 {
                         next += closing(parts.get(next..).unwrap_or_default(), open);
                     }
                 }
                 Rule::missing | Rule::EOI => {}
-                _ => self.sound(&mut row, part.clone()),
+                _ => self.sound(&mut row, *part),
             }
         }
         self.idle_doc(&mut row);
