@@ -35,13 +35,13 @@ impl Reader<'_> {
                 Rule::doc => self.doc(&mut row, part),
                 Rule::surplus => self.surplus(part),
                 Rule::stray => {
-                    let open = self.stray(&mut row, *part);
+                    let open = self.stray(&mut row, part.clone());
                     if open > 0 {
                         next += closing(parts.get(next..).unwrap_or_default(), open);
                     }
                 }
                 Rule::missing | Rule::EOI => {}
-                _ => self.sound(&mut row, *part),
+                _ => self.sound(&mut row, part.clone()),
             }
         }
         self.idle_doc(&mut row);
