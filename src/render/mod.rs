@@ -5,6 +5,7 @@
 //! same bytes, on one thread or many: every pixel draws its own numbers from its place.
 
 mod backdrop;
+mod brdf;
 mod camera;
 mod coat;
 mod figure;

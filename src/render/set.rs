@@ -23,7 +23,7 @@ pub struct Set<'a> {
 
 /// A place of the figure where light arrives.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct Place<'a> {
     /// Where, m.
     pub at: Vector,
     /// Normal of the triangle, towards the side that is seen.
@@ -33,7 +33,7 @@ pub struct Place {
     /// Own colour.
     pub colour: Light3,
     /// How light leaves it.
-    pub look: Look,
+    pub look: &'a Look,
 }
 
 /// Triangles that pieces may add up to; beyond it they stay coarser.
@@ -77,7 +77,7 @@ impl<'a> Set<'a> {
     }
 
     /// The place of a hit. `window` is what a pixel covers there, m; none for a rough look.
-    pub fn place(&self, hit: &Hit, ray: &Ray, window: Option<f32>) -> Place {
+    pub fn place(&self, hit: &Hit, ray: &Ray, window: Option<f32>) -> Place<'a> {
         let figure = self.figure;
         let (number, piece) = self.pieces[hit.triangle as usize];
         let face = figure.faces[number as usize];
@@ -96,9 +96,9 @@ impl<'a> Set<'a> {
         let normal = turned_to_eye(normal, &ray.direction);
         let coat = &figure.coats[face.coat as usize];
         let (colour, look, threads) = match coat {
-            Coat::Plain { colour, look } => (*colour, *look, bare(normal)),
+            Coat::Plain { colour, look } => (*colour, look, bare(normal)),
             Coat::Wood { wood, look } => {
-                (wood.colour(&at, window.unwrap_or(0.02)), *look, bare(normal))
+                (wood.colour(&at, window.unwrap_or(0.02)), look, bare(normal))
             }
             Coat::Cloth(panel) => {
                 let threads = threads(&corners, normal);
@@ -117,7 +117,7 @@ impl<'a> Set<'a> {
                     colour *= (streak * figure.selvages.left(number, rest, wide)).max(0.0);
                     colour = colour.map(|c| c.min(coat::WHITEST));
                 }
-                (colour, panel.looks[usize::from(back)], threads)
+                (colour, &panel.looks[usize::from(back)], threads)
             }
         };
         Place { at, flat, threads, colour, look }

@@ -103,34 +103,53 @@ impl<'a> Tracer<'a> {
     }
 
     /// Light at a place of the figure, sent towards the eye.
-    fn seeing(&mut self, ray: &Ray, place: &Place, distance: f32, sampler: &mut Sampler) -> Seeing {
-        let eye = -ray.direction;
+    fn seeing(
+        &mut self,
+        ray: &Ray,
+        place: &Place<'a>,
+        distance: f32,
+        sampler: &mut Sampler,
+    ) -> Seeing {
+        let (look, threads) = (place.look, &place.threads);
+        let eye = seen_from(&threads.inwards(&-ray.direction));
         let (mut matte, mut shine) = (Light3::zeros(), Light3::zeros());
-        let passes = place.look.passes;
+        let passes = look.passes;
         if let Some((direction, light)) = self.from_lamps(place, sampler) {
-            let cosine = direction.dot(&place.threads.normal);
-            if cosine > 0.0 {
-                matte += light * (cosine * (1.0 - passes) / PI);
-                let shone = place.look.shine(&place.colour, &place.threads, &eye, &direction);
-                shine += light.component_mul(&shone) * cosine;
+            let own = threads.inwards(&direction);
+            let ground = look.ground(&eye, &own);
+            if own.z > 0.0 {
+                matte += light * (own.z * ground * (1.0 - passes) / PI);
+                shine += light.component_mul(&look.shine(&place.colour, &eye, &own)) * own.z;
             } else {
-                matte += light * (-cosine * passes / PI);
+                matte += light * (-own.z * ground * passes / PI);
             }
         }
-        let [choice, _] = sampler.pair();
-        let through = choice < passes;
-        let side = if through { -place.threads.normal } else { place.threads.normal };
-        let direction = cosine_about(&side, sampler.pair());
-        let light = self.arriving(place, &direction, self.bounces, sampler);
-        matte += light;
-        if !through {
-            let shone = place.look.shine(&place.colour, &place.threads, &eye, &direction);
-            let glint = light.component_mul(&shone) * (PI / (1.0 - passes));
-            shine += glint.map(|c| c.min(GLINT));
+        let [choice, which] = sampler.pair();
+        let pair = sampler.pair();
+        if choice < passes {
+            let direction = cosine_about(&-threads.normal, pair);
+            let light = self.arriving(place, &direction, self.bounces, sampler);
+            matte += light * look.ground(&eye, &threads.inwards(&direction));
+        } else {
+            // On this side the ground and the layers over it choose in turn; what is found is
+            // weighed by how densely both together choose it (E. Veach and L. Guibas 1995).
+            let glossy = look.glossiness(&eye);
+            let choice = (choice - passes) / (1.0 - passes);
+            let own = if choice < glossy { look.sample(&eye, pair, which) } else { None };
+            let own = own.unwrap_or_else(|| cosine_about(&Vector::z(), pair));
+            if own.z > 1e-4 {
+                let dense = (1.0 - glossy) * own.z / PI + glossy * look.density(&eye, &own);
+                let direction = threads.outwards(&own);
+                let light = self.arriving(place, &direction, self.bounces, sampler);
+                let share = own.z / dense;
+                matte += light * (look.ground(&eye, &own) * share / PI);
+                let shone = look.shine(&place.colour, &eye, &own) * (share / (1.0 - passes));
+                shine += light.component_mul(&shone).map(|c| c.min(GLINT));
+            }
         }
         Seeing {
             colour: place.colour,
-            matte: matte * place.look.matte,
+            matte,
             shine: shine.map(|c| c.min(BRIGHTEST)),
             normal: place.threads.normal,
             distance,
@@ -319,6 +338,12 @@ impl<'a> Tracer<'a> {
     }
 }
 
+/// The direction of the eye in the frame of a place, held above the surface: a smooth normal may
+/// lean away from it.
+fn seen_from(own: &Vector) -> Vector {
+    if own.z >= 0.02 { *own } else { Vector::new(own.x, own.y, 0.02).normalize() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -358,10 +383,7 @@ mod tests {
     fn a_white_ball_in_even_light_cannot_be_seen() {
         let (compiled, draped) = (Compiled::default(), ball());
         let mut figure = Figure::of(&compiled, &draped);
-        let mut look = Look::of_body();
-        look.matte = 1.0;
-        look.sheen.strength = 0.0;
-        look.gloss[0].strength = 0.0;
+        let look = Look { matte: 1.0, passes: 0.0, layers: Vec::new() };
         figure.coats = vec![Coat::Plain { colour: Light3::repeat(1.0), look }];
         let set = Set::of(&figure, 0.05);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
