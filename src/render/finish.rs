@@ -86,7 +86,8 @@ impl Look {
                 let floats = usize::from(shares[1] > shares[0]);
                 let gloss = Gloss::of(fibres[floats]);
                 let [along, across] = gloss.spread;
-                let faces = Ashikhmin::satin(gloss.reflectance, 0.62 * along, 0.85 * across);
+                let mirrored = (FILAMENTS * gloss.reflectance).min(1.0);
+                let faces = Ashikhmin::satin(mirrored, 0.62 * along, 0.85 * across);
                 let share = (1.5 * gloss.share).clamp(0.5, 1.0);
                 let model = Model::Ashikhmin(Box::new(faces));
                 layers.push(Layer::new(model, share, gloss.tint, floats == 1));
@@ -219,8 +220,13 @@ impl Look {
     }
 }
 
-/// Reflectance of the sides of a pile as a whole: many fibres are met on the way in and out.
-const PILE: f32 = 0.16;
+/// Light that a float of clear filaments mirrors, against that of its outermost faces: what goes
+/// in is mirrored by the faces below as well, and comes out in the same directions.
+const FILAMENTS: f32 = 2.6;
+
+/// Reflectance of the sides of a pile: light that grazes upright fibres meets one after another,
+/// and most of it is sent on.
+const PILE: f32 = 0.6;
 
 impl Layer {
     fn new(model: Model, share: f32, tint: f32, across: bool) -> Self {

@@ -1,8 +1,9 @@
 //! Satin and velvet: faces whose normals are spread as the cloth spreads them.
 
 use super::table::Table;
-use super::{Brdf, fresnel, half_way, mirrored};
+use super::{Brdf, face_between, fresnel, half_way, mirrored};
 use crate::render::Vector;
+use crate::render::sample::cosine_about;
 use std::f32::consts::PI;
 
 /// The model of M. Ashikhmin, S. Premože and P. Shirley, "A Microfacet-based BRDF Generator", 2000:
@@ -125,11 +126,7 @@ impl Brdf for Ashikhmin {
     }
 
     fn density(&self, eye: &Vector, light: &Vector) -> f32 {
-        let Some(half) = half_way(eye, light) else { return 0.0 };
-        let cosine = half.dot(eye);
-        if half.z <= 0.0 || cosine <= 1e-6 {
-            return 0.0;
-        }
+        let Some((half, cosine)) = face_between(eye, light) else { return 0.0 };
         let dense = match &self.faces {
             Faces::Threads(both) => {
                 let cube = half.z * half.z * half.z;
@@ -142,7 +139,8 @@ impl Brdf for Ashikhmin {
             }
             Faces::Pile { below, .. } => {
                 let step = ((half.z * STEPS as f32) as usize).min(STEPS - 1);
-                (below[step + 1] - below[step]) * STEPS as f32 / (2.0 * PI)
+                let pile = (below[step + 1] - below[step]) * STEPS as f32 / (2.0 * PI);
+                return 0.5 * pile / (4.0 * cosine) + 0.5 * light.z.max(0.0) / PI;
             }
         };
         dense / (4.0 * cosine)
@@ -162,7 +160,13 @@ impl Brdf for Ashikhmin {
                 let [x, y] = spread.sigma;
                 Vector::new(x * radius * cosine, y * radius * sine, 1.0).normalize()
             }
+            // Seen straight on, upright faces mirror what lies below the horizon: every second
+            // direction is chosen evenly.
+            Faces::Pile { .. } if first < 0.5 => {
+                return cosine_about(&Vector::z(), [2.0 * first, second]);
+            }
             Faces::Pile { below, .. } => {
+                let first = 2.0 * first - 1.0;
                 let step = below.partition_point(|share| *share <= first).clamp(1, STEPS) - 1;
                 let width = (below[step + 1] - below[step]).max(1e-12);
                 let z =

@@ -1,6 +1,6 @@
 //! The gloss of parallel threads, narrow along them and wide across.
 
-use super::{Brdf, fresnel, half_way, mirrored};
+use super::{Brdf, face_between, fresnel, half_way, mirrored};
 use crate::render::Vector;
 use std::f32::consts::PI;
 
@@ -58,11 +58,7 @@ impl Brdf for Schlick {
     }
 
     fn density(&self, eye: &Vector, light: &Vector) -> f32 {
-        let Some(half) = half_way(eye, light) else { return 0.0 };
-        let cosine = half.dot(eye);
-        if half.z <= 0.0 || cosine <= 1e-6 {
-            return 0.0;
-        }
+        let Some((half, cosine)) = face_between(eye, light) else { return 0.0 };
         // Half vectors are as dense as Z(t) t, and about the normal as an even ring drawn
         // together by p along the threads.
         self.zenith(half.z) * half.z / PI * self.isotropy / self.azimuth(&half) / (4.0 * cosine)
@@ -86,16 +82,17 @@ mod tests {
 
     #[test]
     fn seen_straight_on_it_sends_back_what_the_integral_says() {
-        // Without tint of angle and alike all round, with x = t² and k = 1 − r:
-        // ∫ from ½ to 1 of r dx / ((1 − k x)² (2 r − 1 + 2 k x)), which the substitution y = 1 − k x
-        // and partial fractions in y² (c − 2 y), c = 1 + 2 r, solve.
+        // All mirroring and alike all round, with x = t², so that v′ = 2 x − 1, and k = 1 − r:
+        // ∫ from ½ to 1 of r (2 x − 1) dx / ((1 − k x)² (r + k (2 x − 1))). With y = 1 − k x and
+        // c = 1 + 2 r it is r/k² ∫ (1/y² − r / (y² (c − 2 y))) dy from r to 1 − k/2.
         for r in [0.1_f64, 0.3, 0.7] {
             let (k, c) = (1.0 - r, 1.0 + 2.0 * r);
             let whole = |y: f64| {
-                -1.0 / (c * y) + 2.0 / (c * c) * libm::log(y)
-                    - 2.0 / (c * c) * libm::log(c - 2.0 * y)
+                let parts =
+                    -1.0 / (c * y) + 2.0 / (c * c) * (libm::log(y) - libm::log(c - 2.0 * y));
+                -1.0 / y - r * parts
             };
-            let exact = r / k * (whole(1.0 - k / 2.0) - whole(r));
+            let exact = r / (k * k) * (whole(1.0 - k / 2.0) - whole(r));
             let model = Schlick { reflectance: 1.0, roughness: r as f32, isotropy: 1.0 };
             let said = f64::from(Albedo::of(&model).at(&Vector::z()));
             assert!((said / exact - 1.0).abs() < 0.01, "{said}, not {exact}, for {r}");
