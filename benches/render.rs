@@ -6,7 +6,7 @@
 #[path = "../tests/render/studio.rs"]
 mod studio;
 
-use darzi::garment::scene::{Light, Picture, View};
+use darzi::garment::scene::{Picture, View};
 use darzi::progress::Quiet;
 use darzi::render::{Options, render};
 use darzi::textile::fabric::Finish;
@@ -21,6 +21,6 @@ fn skirt(size: [u32; 2]) -> image::RgbaImage {
     let colour = [178, 58, 48];
     let fabric = studio::fabric(Finish::Matte, Fibre::Cotton, colour);
     let (compiled, draped) = studio::skirt(fabric, studio::woven(colour));
-    let picture = Picture { views: vec![View::ThreeQuarter], size, light: Light::Studio };
+    let picture = Picture { views: vec![View::ThreeQuarter], size, ..Picture::default() };
     render(&compiled, &draped, &picture, &Options::default(), &mut Quiet)
 }

@@ -137,16 +137,7 @@ fn setting(text: &str) -> Result<(String, String), String> {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
-    let (number, unit) = text.split_at(split);
-    let metres = number
-        .parse()
-        .ok()
-        .zip(crate::units::unit(unit).ok())
-        .and_then(|(number, unit): (f64, _)| unit.quantity(number))
-        .filter(|quantity| quantity.fits(Quantity::length(1.0).dimension))
-        .ok_or_else(|| format!("`{text}` is not a length; write it with its unit, such as 5mm"))?
-        .value;
+    let metres = metres(text)?;
     if (2e-4..=0.5).contains(&metres) {
         Ok(metres)
     } else {
@@ -158,6 +149,20 @@ fn length(text: &str) -> Result<f64, String> {
 fn ends_with(path: &Path, ends: &[&str]) -> bool {
     let end = path.extension().and_then(|end| end.to_str());
     end.is_some_and(|end| ends.iter().any(|known| end.eq_ignore_ascii_case(known)))
+}
+
+/// A length with its unit, m.
+fn metres(text: &str) -> Result<f64, String> {
+    let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    number
+        .parse()
+        .ok()
+        .zip(crate::units::unit(unit).ok())
+        .and_then(|(number, unit): (f64, _)| unit.quantity(number))
+        .filter(|quantity| quantity.fits(Quantity::length(1.0).dimension))
+        .map(|quantity| quantity.value)
+        .ok_or_else(|| format!("`{text}` is not a length; write it with its unit, such as 5mm"))
 }
 
 /// Why a command ended early.

@@ -3,7 +3,9 @@
 use super::bar::Bar;
 use super::project::Project;
 use super::{Input, Stop, Work, drape, output};
-use crate::garment::scene::{Light, Picture, View};
+use crate::garment::scene::{Background, Picture, Quality, Shading, View};
+use crate::mesh::compiled::Compiled;
+use crate::render::Options;
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
@@ -28,8 +30,57 @@ pub(super) struct Render {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
 
+    /// How all cloth is shown: gouraud, smooth, textured, velvet, satin, woven, woven_satin or
+    /// knitted [default: the file's own, else each fabric as what it is]
+    #[arg(long, value_name = "NAME", value_parser = shading)]
+    shading: Option<Shading>,
+
+    /// draft, normal or fine [default: the file's own, else normal]
+    #[arg(long, value_name = "NAME", value_parser = quality)]
+    quality: Option<Quality>,
+
+    /// paper, or none for a transparent picture [default: the file's own, else paper]
+    #[arg(long, value_name = "NAME", value_parser = background)]
+    background: Option<Background>,
+
+    /// Show only so much of the cloth, up and down: 4cm [default: the file's own, else all]
+    #[arg(long, value_name = "LENGTH", value_parser = field)]
+    field: Option<f64>,
+
     #[command(flatten)]
     work: Work,
+}
+
+fn shading(text: &str) -> Result<Shading, String> {
+    Shading::named(text).ok_or_else(|| {
+        format!("ways of shading are {}", Shading::ALL.map(Shading::name).join(", "))
+    })
+}
+
+fn quality(text: &str) -> Result<Quality, String> {
+    Ok(match text {
+        "draft" => Quality::Draft,
+        "normal" => Quality::Normal,
+        "fine" => Quality::Fine,
+        _ => return Err("qualities are draft, normal, fine".to_owned()),
+    })
+}
+
+fn background(text: &str) -> Result<Background, String> {
+    Ok(match text {
+        "paper" => Background::Paper,
+        "none" => Background::None,
+        _ => return Err("backgrounds are paper, none".to_owned()),
+    })
+}
+
+fn field(text: &str) -> Result<f64, String> {
+    let metres = super::metres(text)?;
+    if (2e-3..=10.0).contains(&metres) {
+        Ok(metres)
+    } else {
+        Err("a field lies between 2mm and 10m".to_owned())
+    }
 }
 
 fn view(text: &str) -> Result<View, String> {
@@ -61,24 +112,44 @@ impl Render {
         let mut project = Project::open(&self.input)?;
         let garment = project.garment(&self.input)?;
         let (compiled, draped) = drape::dress(&project, &garment, &self.work)?;
-        let asked = garment.pictures.first();
+        let own = garment.pictures.first().cloned();
+        let asked = own.as_ref();
+        let usual = Picture::default();
+        let shading = self.shading.or(asked.and_then(|p| p.shading));
+        if let Some((shading, fabric)) = shading.and_then(|s| Some((s, unsuited(s, &compiled)?))) {
+            return Err(Stop::Call(format!(
+                "`{fabric}` cannot be shown as `{}` (`darzi explain E0815` says more)",
+                shading.name()
+            )));
+        }
         let picture = Picture {
             views: match (self.view.is_empty(), asked) {
                 (false, _) => self.view,
                 (true, Some(asked)) if !asked.views.is_empty() => asked.views.clone(),
                 _ => vec![View::ThreeQuarter],
             },
-            size: self.size.or(asked.map(|p| p.size)).unwrap_or([900, 1200]),
-            light: asked.map_or(Light::Studio, |p| p.light),
+            size: self.size.or(asked.map(|p| p.size)).unwrap_or(usual.size),
+            light: asked.map_or(usual.light, |p| p.light),
+            shading,
+            quality: self.quality.or(asked.map(|p| p.quality)).unwrap_or_default(),
+            background: self.background.or(asked.map(|p| p.background)).unwrap_or_default(),
+            field: self.field.or(asked.and_then(|p| p.field)),
         };
         let sheet = crate::render::render(
             &compiled,
             &draped,
             &picture,
-            &Default::default(),
+            &Options::of(picture.quality),
             &mut Bar::new(),
         );
         output::write_png(&self.output, &sheet)?;
         drape::verdict(&project, &garment, &draped)
     }
+}
+
+/// A fabric that is shown and cannot be shown so.
+fn unsuited(shading: Shading, compiled: &Compiled) -> Option<String> {
+    let shown = compiled.panels.iter().filter_map(|panel| compiled.fabrics.get(panel.fabric));
+    let other = shown.into_iter().find(|fabric| !shading.suits(&fabric.structure))?;
+    Some(other.name.clone())
 }

@@ -117,6 +117,7 @@ pub const CODES: &[Code] = &[
     code("E0812", "a panel smaller than its grid"),
     code("E0813", "an outline that encloses no cloth"),
     code("E0814", "points of a seam that cannot be matched"),
+    code("E0815", "cloth that cannot be shown so"),
     code("E0901", "a file without the name that is used"),
     code("E0902", "files that use each other"),
     code("E0903", "a file that cannot be read"),

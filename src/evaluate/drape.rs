@@ -5,7 +5,8 @@ use super::fields::{Arg, Fields, bare};
 use super::garment::Making;
 use super::words::Kind;
 use crate::diagnostic::Diagnostic;
-use crate::garment::scene::{Light, Phase, Picture, View};
+use crate::garment::Garment;
+use crate::garment::scene::{Background, Light, Phase, Picture, Quality, Shading, View};
 use crate::syntax::tree::{BinaryOp, Expr, ExprKind};
 use crate::units::Dimension;
 
@@ -20,8 +21,8 @@ const SPEED: f64 = 2e-3;
 const WITHIN: f64 = 20.0;
 /// Frames per second that are kept, where nothing else is said.
 const RATE: f64 = 60.0;
-/// Pixels of a picture, where nothing else is said.
-const SIZE: [u32; 2] = [900, 1200];
+/// Heights of what a view may show, m.
+const FIELD: [f64; 2] = [2e-3, 10.0];
 
 impl<'t> Evaluator<'t> {
     /// The schedule of a garment or scene: what its `drape` says, else sew (where there are
@@ -168,7 +169,9 @@ impl<'t> Evaluator<'t> {
                     );
                 }
             }
-            making.garment.pictures.extend(self.picture(&inner));
+            let picture = self.picture(&inner);
+            self.suits(&inner, picture.as_ref(), &making.garment);
+            making.garment.pictures.extend(picture);
         }
     }
 
@@ -194,13 +197,57 @@ impl<'t> Evaluator<'t> {
                 let height = self.whole_number(phrase.arg(1)?, 16, 16_384)?;
                 [width as u32, height as u32]
             }
-            None => SIZE,
+            None => Picture::default().size,
         };
         let light = match fields.get("light").and_then(|phrase| phrase.choice(0)) {
             Some("daylight") => Light::Daylight,
             Some("overcast") => Light::Overcast,
             _ => Light::Studio,
         };
-        Some(Picture { views, size, light })
+        let shading = fields.get("shading").and_then(|phrase| phrase.choice(0));
+        let quality = match fields.get("quality").and_then(|phrase| phrase.choice(0)) {
+            Some("draft") => Quality::Draft,
+            Some("fine") => Quality::Fine,
+            _ => Quality::Normal,
+        };
+        let background = match fields.get("background").and_then(|phrase| phrase.choice(0)) {
+            Some("none") => Background::None,
+            _ => Background::Paper,
+        };
+        let field = match fields.value("field") {
+            Some(arg) => Some(self.within_range(arg, Dimension::LENGTH, FIELD[0], FIELD[1])?),
+            None => None,
+        };
+        let shading = shading.and_then(Shading::named);
+        Some(Picture { views, size, light, shading, quality, background, field })
+    }
+
+    /// Whether all cloth can be shown as the picture asks.
+    pub(super) fn suits(
+        &mut self,
+        fields: &Fields<'t>,
+        picture: Option<&Picture>,
+        garment: &Garment,
+    ) {
+        let Some((phrase, shading)) = fields.get("shading").zip(picture.and_then(|p| p.shading))
+        else {
+            return;
+        };
+        let shown = garment.panels.iter().filter_map(|panel| garment.fabrics.get(panel.fabric));
+        let Some(other) = shown.into_iter().find(|fabric| !shading.suits(&fabric.structure)) else {
+            return;
+        };
+        let [is, wants] = match shading {
+            Shading::Knitted => ["woven", "loops"],
+            _ => ["knitted", "threads of warp and weft"],
+        };
+        self.tell(
+            Diagnostic::new(
+                "E0815",
+                format!("`{}` cannot be shown as `{}`", other.name, shading.name()),
+            )
+            .at(phrase.span, format!("it has no {wants}: it is {is}"))
+            .help("leave out `shading` to show every fabric as what it is"),
+        );
     }
 }

@@ -562,6 +562,7 @@ impl<'t> Evaluator<'t> {
         let Some(Made::Sari(..)) = self.make(id, of.expr.span) else { return None };
         let on_line = fields.get("show").and_then(|show| show.choice(0)) != Some("flat");
         let mut making = self.hung(id, phrase.span, on_line)?;
+        self.suits(&fields, Some(&picture), &making.garment);
         making.garment.pictures.push(picture);
         if making.garment.schedule.is_empty() {
             making.garment.schedule.push(Phase::Settle { speed: 2e-3, within: 20.0, span: None });

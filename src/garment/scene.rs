@@ -4,6 +4,7 @@
 //! y = 0 and face +z.
 
 use crate::diagnostic::Span;
+use crate::textile::fabric::Structure;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -171,6 +172,122 @@ pub struct Picture {
     pub size: [u32; 2],
     /// The light.
     pub light: Light,
+    /// How all cloth is shown; none shows each fabric as what it is.
+    #[serde(default)]
+    pub shading: Option<Shading>,
+    /// How much care is taken.
+    #[serde(default)]
+    pub quality: Quality,
+    /// What stands behind the figure.
+    #[serde(default)]
+    pub background: Background,
+    /// Height of what each view shows, m, about the middle of the cloth; none shows all.
+    #[serde(default)]
+    pub field: Option<f64>,
+}
+
+impl Default for Picture {
+    /// The front in the studio, 900 × 1200.
+    fn default() -> Self {
+        Picture {
+            views: vec![View::Front],
+            size: [900, 1200],
+            light: Light::Studio,
+            shading: None,
+            quality: Quality::Normal,
+            background: Background::Paper,
+            field: None,
+        }
+    }
+}
+
+/// Named ways to show cloth, those of Durupınar 2004 (sections 4.4 and 6.2) and of Athale 2004
+/// (section 6.2.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shading {
+    /// Plain triangles, lit at their corners.
+    Gouraud,
+    /// Triangles curved by their normals, in one colour.
+    Smooth,
+    /// The picture of the textile on matte curved triangles.
+    Textured,
+    /// Upright pile.
+    Velvet,
+    /// The gloss of crossed threads, no thread shown.
+    Satin,
+    /// Matte threads.
+    Woven,
+    /// Threads with the gloss of satin.
+    WovenSatin,
+    /// Loops of an even yarn.
+    Knitted,
+}
+
+impl Shading {
+    /// Its name in the text.
+    pub fn name(self) -> &'static str {
+        match self {
+            Shading::Gouraud => "gouraud",
+            Shading::Smooth => "smooth",
+            Shading::Textured => "textured",
+            Shading::Velvet => "velvet",
+            Shading::Satin => "satin",
+            Shading::Woven => "woven",
+            Shading::WovenSatin => "woven_satin",
+            Shading::Knitted => "knitted",
+        }
+    }
+
+    /// All of them.
+    pub const ALL: [Shading; 8] = [
+        Shading::Gouraud,
+        Shading::Smooth,
+        Shading::Textured,
+        Shading::Velvet,
+        Shading::Satin,
+        Shading::Woven,
+        Shading::WovenSatin,
+        Shading::Knitted,
+    ];
+
+    /// That of a name.
+    pub fn named(name: &str) -> Option<Shading> {
+        Self::ALL.into_iter().find(|shading| shading.name() == name)
+    }
+
+    /// Whether cloth of this structure can be shown so: loops need a knit, threads a weave.
+    pub fn suits(self, structure: &Structure) -> bool {
+        match self {
+            Shading::Woven | Shading::WovenSatin => matches!(structure, Structure::Woven { .. }),
+            Shading::Knitted => matches!(structure, Structure::Knitted { .. }),
+            _ => true,
+        }
+    }
+}
+
+/// How much care is taken of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quality {
+    /// A look in a moment.
+    Draft,
+    /// A clean picture.
+    #[default]
+    Normal,
+    /// For print.
+    Fine,
+}
+
+/// What stands behind the figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Background {
+    /// Light grey paper, with the figure's shadow on it.
+    #[default]
+    Paper,
+    /// Nothing: the picture is transparent there.
+    None,
 }
 
 /// Named views.

@@ -10,6 +10,8 @@ use crate::garment::scene::View;
 pub struct Camera {
     /// Where it stands, m.
     pub eye: Vector,
+    /// How far it is from what it looks at, m.
+    pub away: f32,
     /// The axes of the picture: right, up; and away from the figure towards the camera.
     pub axes: [Vector; 3],
     /// What it looks at: left, bottom, right, top, each over the distance along its axis.
@@ -76,6 +78,7 @@ impl Camera {
             let lift = if *view == View::Top { 0.0 } else { up };
             let mut camera = Camera {
                 eye: middle + back * (AWAY * extent) + Vector::y() * lift,
+                away: AWAY * extent,
                 axes: [right, back.cross(&right), back],
                 window: [-1.0, -1.0, 1.0, 1.0],
                 stand: Stand { middle, extent, right, front },
@@ -84,6 +87,25 @@ impl Camera {
             camera
         };
         views.iter().map(make).collect()
+    }
+
+    /// The same from so near that it shows a field of the given height, m, about the first thing
+    /// that stands before it on the way from its eye to `aim`. `meets` tells how far along a ray
+    /// that is. The lamps stay where they are.
+    pub fn close_up(
+        mut self,
+        aim: &Vector,
+        field: f32,
+        meets: impl Fn(&Ray) -> Option<f32>,
+    ) -> Self {
+        let direction = (aim - self.eye).normalize();
+        let ray = Ray { origin: self.eye, direction, reach: f32::INFINITY };
+        let target = meets(&ray).map_or(*aim, |distance| self.eye + direction * distance);
+        self.away = AWAY * 0.5 * field;
+        self.eye = target + self.axes[2] * self.away;
+        // The height of the field at distance 1 is 2 / AWAY.
+        self.window = [-1.0, -1.0, 1.0, 1.0].map(|edge: f32| edge / AWAY);
+        self
     }
 
     /// The window that just holds the places.
@@ -100,7 +122,7 @@ impl Camera {
     pub fn film(&self, place: &Vector) -> Option<[f32; 2]> {
         let from = place - self.eye;
         let depth = -from.dot(&self.axes[2]);
-        let near = 0.02 * self.stand.extent;
+        let near = 0.004 * self.away;
         (depth > near).then(|| [0, 1].map(|k| from.dot(&self.axes[k]) / depth))
     }
 

@@ -35,7 +35,7 @@ impl Panel {
     ) -> Light3 {
         let Some((surface, [u, v])) = self.surface_at(rest) else { return self.plain };
         let region = if back && swatches.has(surface.back) { surface.back } else { surface.face };
-        let mut colour = swatches.look(region, u, v, wide).colour;
+        let mut colour = swatches.look(region, u, v, wide.max(self.blur)).colour;
         if let Some([warp, weft]) = swatches.shot(region) {
             // Looked at along the weft, the crowns of the warp hide the weft between them, and
             // the other way round.

@@ -1,6 +1,8 @@
 //! What stands in the studio: cloth, bodies and solids as curved triangles with their coats.
 
 use super::finish::Look;
+use super::hierarchy::Ray;
+use super::manner::{BLURRED, Manner, Textile};
 use super::rim;
 use super::selvage::Selvages;
 use super::slub::Slubs;
@@ -31,6 +33,8 @@ pub struct Figure<'a> {
     pub floor: Option<f32>,
     /// Whether somebody wears it.
     pub worn: bool,
+    /// How cloth is shown.
+    pub manner: Manner,
 }
 
 /// A corner of triangles.
@@ -85,6 +89,8 @@ pub struct Panel {
     pub looks: [Look; 2],
     /// Its threads.
     pub slubs: Option<Slubs>,
+    /// It is never seen through a narrower window than this, m.
+    pub blur: f32,
 }
 
 /// Seam partners nearer than this are drawn as one, m.
@@ -98,7 +104,7 @@ const FAR: f64 = 1e3;
 
 impl<'a> Figure<'a> {
     /// The dressed figure.
-    pub fn of(compiled: &'a Compiled, draped: &Draped) -> Self {
+    pub fn of(compiled: &'a Compiled, draped: &Draped, manner: Manner) -> Self {
         let mut figure = Figure {
             corners: Vec::new(),
             faces: Vec::new(),
@@ -107,6 +113,7 @@ impl<'a> Figure<'a> {
             selvages: Selvages::default(),
             floor: None,
             worn: draped.surfaces.iter().any(|surface| surface.kind == SurfaceKind::Body),
+            manner,
         };
         figure.add_cloth(compiled, draped);
         let mut floor: Option<f32> = None;
@@ -142,6 +149,45 @@ impl<'a> Figure<'a> {
         shown.map(|(corner, _)| corner.place).collect()
     }
 
+    /// The middle of the cloth, or of all where there is none, m.
+    pub fn middle(&self) -> Vector {
+        let cloth = |face: &&Face| matches!(self.coats[face.coat as usize], Coat::Cloth(_));
+        let any = self.faces.iter().any(|face| cloth(&face));
+        let nothing = (Vector::repeat(f32::INFINITY), Vector::repeat(f32::NEG_INFINITY));
+        let (low, high) = self
+            .faces
+            .iter()
+            .filter(|face| !any || cloth(face))
+            .flat_map(|face| face.corners)
+            .map(|corner| self.corners[corner as usize].place)
+            .fold(nothing, |(low, high), place| (low.inf(&place), high.sup(&place)));
+        if low.x <= high.x { (low + high) * 0.5 } else { Vector::zeros() }
+    }
+
+    /// How far along a ray the first triangle is, the curves of triangles left aside.
+    pub fn meets(&self, ray: &Ray) -> Option<f32> {
+        let mut nearest: Option<f32> = None;
+        for face in &self.faces {
+            let [a, b, c] = face.corners.map(|corner| self.corners[corner as usize].place);
+            let (first, second) = (b - a, c - a);
+            let p = ray.direction.cross(&second);
+            let scale = first.dot(&p);
+            if scale.abs() < 1e-12 {
+                continue;
+            }
+            let from = ray.origin - a;
+            let u = from.dot(&p) / scale;
+            let q = from.cross(&first);
+            let v = ray.direction.dot(&q) / scale;
+            let distance = second.dot(&q) / scale;
+            let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0;
+            if inside && nearest.is_none_or(|least| distance < least) {
+                nearest = Some(distance);
+            }
+        }
+        nearest
+    }
+
     fn add_cloth(&mut self, compiled: &Compiled, draped: &Draped) {
         let count = compiled.particles.len().min(draped.positions.len());
         let mut places: Vec<Vector3<f64>> =
@@ -161,7 +207,9 @@ impl<'a> Figure<'a> {
             let alike = |p: u32, q: u32| first_normals[p as usize].dot(&first_normals[q as usize]);
             alike(a, c) >= alike(b, d)
         });
-        self.selvages = Selvages::of(compiled, &faces);
+        if self.manner.textile == Textile::Threads {
+            self.selvages = Selvages::of(compiled, &faces);
+        }
         let normals = cloth_normals(&places, &faces, &welds);
         let first = self.corners.len() as u32;
         for ((place, normal), rest) in places.iter().zip(normals).zip(&compiled.particles) {
@@ -196,19 +244,21 @@ impl<'a> Figure<'a> {
     fn panel(&self, panel: &MeshPanel, compiled: &Compiled) -> Panel {
         let fabric = compiled.fabrics.get(panel.fabric);
         let look = |back| match fabric {
-            Some(fabric) => Look::of_fabric(fabric, back),
+            Some(fabric) => self.manner.look(fabric, back),
             None => Look::of_body(),
         };
+        let textile = self.manner.textile;
         Panel {
             surfaces: panel
                 .surfaces
                 .iter()
-                .filter(|surface| self.swatches.has(surface.face))
+                .filter(|s| textile != Textile::Colour && self.swatches.has(s.face))
                 .cloned()
                 .collect(),
             plain: fabric.map_or(Light3::repeat(0.5), yarn_colour),
             looks: [look(false), look(true)],
-            slubs: fabric.map(Slubs::of),
+            slubs: fabric.filter(|_| textile == Textile::Threads).map(Slubs::of),
+            blur: if textile == Textile::Pattern { BLURRED } else { 0.0 },
         }
     }
 

@@ -66,8 +66,8 @@ const FIBRE: f32 = 0.045;
 const METAL: f32 = 0.75;
 
 impl Look {
-    /// A side of a fabric: the face, or the back.
-    pub fn of_fabric(fabric: &Fabric, back: bool) -> Self {
+    /// A side of a fabric after a finish: the face, or the back.
+    pub fn of_fabric(fabric: &Fabric, finish: Finish, back: bool) -> Self {
         // How much of each thread lies on this side, and what it is spun from.
         let (shares, fibres) = match &fabric.structure {
             Structure::Woven { weave, warp, weft } => {
@@ -80,7 +80,7 @@ impl Look {
         };
         let knitted = matches!(fabric.structure, Structure::Knitted { .. });
         let mut layers = Vec::new();
-        match fabric.finish {
+        match finish {
             Finish::Satin => {
                 // The threads that float lead; their ends and those that bind give the rest.
                 let floats = usize::from(shares[1] > shares[0]);
@@ -125,7 +125,7 @@ impl Look {
                 }
             }
         }
-        let fur = match fabric.finish {
+        let fur = match finish {
             Finish::Matte => Some((0.08, 0.7)),
             Finish::Satin => None,
             Finish::Wool => Some((0.26, 0.6)),
@@ -137,12 +137,13 @@ impl Look {
             layers.push(Layer::new(Model::Charlie(Charlie { order: 1 }), share, tint, false));
         }
         // Light that goes in between upright fibres is caught there.
-        let matte = if fabric.finish == Finish::Velvet && !back { 0.45 } else { 1.0 };
-        // Transmission falls with the fibre in the way: about a quarter at 50 g/m², a tenth at
-        // 150 g/m², next to nothing for denim.
-        let mass = (fabric.mass as f32).clamp(0.01, 2.0);
-        let passes = 0.38 * libm::expf(-mass / 0.11);
-        Look { matte, passes, layers }
+        let matte = if finish == Finish::Velvet && !back { 0.45 } else { 1.0 };
+        Look { matte, passes: passes(fabric), layers }
+    }
+
+    /// A fabric that sends all light on the matte way.
+    pub fn matte(fabric: &Fabric) -> Self {
+        Look { matte: 1.0, passes: passes(fabric), layers: Vec::new() }
     }
 
     /// The linen cover of a mannequin.
@@ -218,6 +219,12 @@ impl Look {
         let layer = picked?;
         Some(layer.turned(&layer.model.sample(&layer.turned(eye), pair)))
     }
+}
+
+/// Transmission falls with the fibre in the way: about a quarter at 50 g/m², a tenth at 150 g/m²,
+/// next to nothing for denim.
+fn passes(fabric: &Fabric) -> f32 {
+    0.38 * libm::expf(-(fabric.mass as f32).clamp(0.01, 2.0) / 0.11)
 }
 
 /// Light that a float of clear filaments mirrors, against that of its outermost faces: what goes
@@ -327,7 +334,7 @@ mod tests {
                     damping: 0.1,
                     finish,
                 };
-                Look::of_fabric(&fabric, false)
+                Look::of_fabric(&fabric, finish, false)
             });
         const PATHS: u32 = 8192;
         for look in looks.into_iter().chain([Look::of_body(), Look::of_solid()]) {

@@ -11,9 +11,11 @@ mod coat;
 mod figure;
 mod finish;
 mod floor;
+mod gouraud;
 mod hierarchy;
 mod lamp;
 mod layout;
+mod manner;
 mod pixel;
 mod rim;
 mod sample;
@@ -29,7 +31,7 @@ mod trace;
 mod wood;
 
 use crate::drape::draped::Draped;
-use crate::garment::scene::Picture;
+use crate::garment::scene::{Picture, Quality};
 use crate::mesh::compiled::Compiled;
 use crate::progress::Progress;
 use image::RgbaImage;
@@ -54,7 +56,19 @@ pub struct Options {
 impl Default for Options {
     /// A clean picture in seconds.
     fn default() -> Self {
-        Options { paths: 16, bounces: 2, smooth: true }
+        Options::of(Quality::Normal)
+    }
+}
+
+impl Options {
+    /// What a quality by name means.
+    pub fn of(quality: Quality) -> Self {
+        let (paths, bounces) = match quality {
+            Quality::Draft => (4, 1),
+            Quality::Normal => (16, 2),
+            Quality::Fine => (96, 4),
+        };
+        Options { paths, bounces, smooth: true }
     }
 }
 
@@ -72,6 +86,6 @@ pub fn render(
 ) -> RgbaImage {
     progress.stage("render");
     progress.share(0.0, "building");
-    let figure = figure::Figure::of(compiled, draped);
+    let figure = figure::Figure::of(compiled, draped, manner::Manner::of(picture.shading));
     sheet::print(&figure, picture, options, progress)
 }

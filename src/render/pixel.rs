@@ -58,8 +58,12 @@ impl Pixel {
 
     /// The light of the finished pixel before paper of that light.
     pub fn light(&self, behind: &Light3) -> Light3 {
-        let figure = self.colour.component_mul(&self.matte) + self.shine;
-        figure * self.cover + behind * (1.0 - self.cover)
+        self.own_light() * self.cover + behind * (1.0 - self.cover)
+    }
+
+    /// The light of what covers it.
+    pub fn own_light(&self) -> Light3 {
+        self.colour.component_mul(&self.matte) + self.shine
     }
 }
 

@@ -51,8 +51,11 @@ impl<'a> Set<'a> {
                 let mut list = Vec::new();
                 for (k, face) in faces.iter().enumerate() {
                     let corners = face.corners.map(|c| figure.corners[c as usize]);
+                    let cloth = matches!(figure.coats[face.coat as usize], Coat::Cloth(_));
+                    let flat = cloth && !figure.manner.curved;
+                    let parts = if flat { 1 } else { parts[face.coat as usize] };
                     let patch = Patch::over(corners.map(|c| c.place), corners.map(|c| c.normal));
-                    patch.divide(parts[face.coat as usize], |piece, [a, b, c]| {
+                    patch.divide(parts, |piece, [a, b, c]| {
                         if (b - a).cross(&(c - a)).norm_squared() > 1e-24 {
                             list.push(((chunk * 4096 + k) as u32, piece, [a, b, c]));
                         }
@@ -121,6 +124,16 @@ impl<'a> Set<'a> {
             }
         };
         Place { at, flat, threads, colour, look }
+    }
+
+    /// The corners of the face that was hit, their shares in the place, and whether it is seen from
+    /// behind.
+    pub fn corners(&self, hit: &Hit, ray: &Ray) -> ([u32; 3], [f32; 3], bool) {
+        let (number, piece) = self.pieces[hit.triangle as usize];
+        let [u, v] = piece.shares(hit.u, hit.v);
+        let (_, flat) = self.hierarchy.place(hit);
+        let behind = flat.dot(&ray.direction) > 0.0;
+        (self.figure.faces[number as usize].corners, [1.0 - u - v, u, v], behind)
     }
 
     /// Whether the ray, where it meets this, comes from inside a body or solid.
@@ -203,7 +216,7 @@ fn threads(corners: &[Corner; 3], normal: Vector) -> Threads {
 }
 
 /// Any directions, for surfaces without threads.
-fn bare(normal: Vector) -> Threads {
+pub fn bare(normal: Vector) -> Threads {
     let (weft, warp) = frame(&normal);
     Threads { normal, warp, weft }
 }

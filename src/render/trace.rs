@@ -1,9 +1,11 @@
 //! Paths of light from the camera into the studio.
 
+use super::figure::Coat;
+use super::gouraud::CornerLight;
 use super::hierarchy::{Hit, Ray, Stack};
 use super::lamp::Lighting;
 use super::sample::{Sampler, cosine_about};
-use super::set::{Place, Set};
+use super::set::{Place, Set, bare};
 use super::{Light3, Vector};
 use std::f32::consts::PI;
 
@@ -64,6 +66,8 @@ pub struct Tracer<'a> {
     round: (Vector, f32),
     /// Height of the floor, if there is one, m.
     floor: Option<f32>,
+    /// Light at the corners, if cloth is shown by it.
+    corners: Option<&'a CornerLight>,
 }
 
 impl<'a> Tracer<'a> {
@@ -83,7 +87,14 @@ impl<'a> Tracer<'a> {
             lift: LIFT * extent.max(0.25),
             round: (middle, extent),
             floor: set.figure.floor,
+            corners: None,
         }
+    }
+
+    /// The same with light that was found at the corners.
+    pub fn lit_at(mut self, corners: Option<&'a CornerLight>) -> Self {
+        self.corners = corners;
+        self
     }
 
     /// The same without a floor.
@@ -97,9 +108,45 @@ impl<'a> Tracer<'a> {
     pub fn path(&mut self, ray: &Ray, spread: f32, sampler: &mut Sampler) -> Seen {
         if let Some(hit) = self.nearest(ray, sampler) {
             let place = self.set.place(&hit, ray, Some(spread * hit.distance));
+            if let Some(light) = self.corners {
+                let (corners, shares, behind) = self.set.corners(&hit, ray);
+                return Seen::Figure(Seeing {
+                    colour: place.colour,
+                    matte: light.between(corners, shares, behind),
+                    shine: Light3::zeros(),
+                    normal: place.threads.normal,
+                    distance: hit.distance,
+                });
+            }
             return Seen::Figure(self.seeing(ray, &place, hit.distance, sampler));
         }
         Seen::Paper
+    }
+
+    /// Matte light on one side of a corner with the coat `coat`, as from a white surface, by one
+    /// path.
+    pub fn corner(
+        &mut self,
+        at: &Vector,
+        normal: &Vector,
+        coat: u32,
+        eye: &Vector,
+        sampler: &mut Sampler,
+    ) -> Light3 {
+        let look = match &self.set.figure.coats[coat as usize] {
+            Coat::Cloth(panel) => &panel.looks[0],
+            Coat::Plain { look, .. } | Coat::Wood { look, .. } => look,
+        };
+        let place = Place {
+            at: *at,
+            flat: *normal,
+            threads: bare(*normal),
+            colour: Light3::repeat(1.0),
+            look,
+        };
+        let direction = (at - eye).normalize();
+        let ray = Ray { origin: *eye, direction, reach: f32::INFINITY };
+        self.seeing(&ray, &place, 1.0, sampler).matte
     }
 
     /// Light at a place of the figure, sent towards the eye.
@@ -350,9 +397,10 @@ mod tests {
     use crate::body::surface::{Surface as Solid, SurfaceKind};
     use crate::drape::draped::{Draped, Stats};
     use crate::mesh::compiled::Compiled;
-    use crate::render::figure::{Coat, Figure};
+    use crate::render::figure::Figure;
     use crate::render::finish::Look;
     use crate::render::lamp::Dome;
+    use crate::render::manner::Manner;
     use nalgebra::{Point3, Vector3};
 
     /// A ball of radius 1 about (0, 1, 0), coarse.
@@ -382,7 +430,7 @@ mod tests {
     #[test]
     fn a_white_ball_in_even_light_cannot_be_seen() {
         let (compiled, draped) = (Compiled::default(), ball());
-        let mut figure = Figure::of(&compiled, &draped);
+        let mut figure = Figure::of(&compiled, &draped, Manner::of(None));
         let look = Look { matte: 1.0, passes: 0.0, layers: Vec::new() };
         figure.coats = vec![Coat::Plain { colour: Light3::repeat(1.0), look }];
         let set = Set::of(&figure, 0.05);
@@ -408,7 +456,7 @@ mod tests {
     #[test]
     fn curved_triangles_make_the_ball_round() {
         let (compiled, draped) = (Compiled::default(), ball());
-        let figure = Figure::of(&compiled, &draped);
+        let figure = Figure::of(&compiled, &draped, Manner::of(None));
         let set = Set::of(&figure, 0.05);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let tracer = &mut Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);
@@ -430,7 +478,7 @@ mod tests {
     #[test]
     fn the_floor_is_as_bright_as_empty_where_the_figure_is_far() {
         let (compiled, draped) = (Compiled::default(), ball());
-        let figure = Figure::of(&compiled, &draped);
+        let figure = Figure::of(&compiled, &draped, Manner::of(None));
         let set = Set::of(&figure, 0.2);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let mut tracer = Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);

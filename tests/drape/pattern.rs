@@ -4,7 +4,7 @@ use darzi::diagnostic::Span;
 use darzi::garment::Garment;
 use darzi::garment::cloth::Surface;
 use darzi::garment::panel::{Loop, NamedEdge, Panel, Piece, Run};
-use darzi::garment::scene::{BodyRequest, Figure, Light, Phase, Picture, Placement, Side, View};
+use darzi::garment::scene::{BodyRequest, Figure, Phase, Picture, Placement, Side, View};
 use darzi::garment::seam::{Attachment, PanelRun, Seam, SeamKind};
 use darzi::textile::Colour;
 use darzi::textile::fabric::{Fabric, Finish, Structure, Thread};
@@ -186,7 +186,7 @@ pub fn picture() -> Picture {
     Picture {
         views: vec![View::Front, View::ThreeQuarter, View::Back],
         size: [1200, 800],
-        light: Light::Studio,
+        ..Picture::default()
     }
 }
 

@@ -5,7 +5,7 @@
 mod studio;
 
 use darzi::drape::draped::{Draped, Stats};
-use darzi::garment::scene::{Light, Picture, View};
+use darzi::garment::scene::{Picture, View};
 use darzi::mesh::compiled::{Atlas, Compiled, Region};
 use darzi::progress::Quiet;
 use darzi::render::{Options, render};
@@ -17,7 +17,7 @@ use nalgebra::Point3;
 const RED: [u8; 3] = [178, 58, 48];
 
 fn shown(dressed: &(Compiled, Draped), views: &[View], size: [u32; 2]) -> RgbaImage {
-    let picture = Picture { views: views.to_vec(), size, light: Light::Studio };
+    let picture = Picture { views: views.to_vec(), size, ..Picture::default() };
     render(&dressed.0, &dressed.1, &picture, &Options::default(), &mut Quiet)
 }
 

@@ -5,7 +5,7 @@ use super::{Source, say_json};
 use crate::cli::bar::Bar;
 use crate::cli::{Stop, length, output, say};
 use crate::diagnostic::Diagnostic;
-use crate::garment::scene::{Light, Picture, View};
+use crate::garment::scene::{Picture, View};
 use crate::laboratory::cantilever::{self, Direction, SLOPE};
 use crate::laboratory::{Failure, Hung, cusick};
 use crate::textile::fabric::Fabric;
@@ -84,7 +84,7 @@ impl Test {
         };
         let Some(path) = &self.output else { return Ok(()) };
         let picture =
-            Picture { views: vec![View::ThreeQuarter], size: [900, 900], light: Light::Studio };
+            Picture { views: vec![View::ThreeQuarter], size: [900, 900], ..Picture::default() };
         let Hung { compiled, draped } = &hung;
         let options = Default::default();
         let sheet = crate::render::render(compiled, draped, &picture, &options, &mut Bar::new());
