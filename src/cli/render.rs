@@ -30,8 +30,8 @@ pub(super) struct Render {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
 
-    /// How all cloth is shown: gouraud, smooth, textured, velvet, satin, woven, woven_satin or
-    /// knitted [default: the file's own, else each fabric as what it is]
+    /// How all cloth is shown: gouraud, smooth, textured, velvet, satin, woven, woven_satin,
+    /// knitted or knitted_yarns [default: the file's own, else each fabric as what it is]
     #[arg(long, value_name = "NAME", value_parser = shading)]
     shading: Option<Shading>,
 

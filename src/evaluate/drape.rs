@@ -238,7 +238,7 @@ impl<'t> Evaluator<'t> {
             return;
         };
         let [is, wants] = match shading {
-            Shading::Knitted => ["woven", "loops"],
+            Shading::Knitted | Shading::KnittedYarns => ["woven", "loops"],
             _ => ["knitted", "threads of warp and weft"],
         };
         self.tell(

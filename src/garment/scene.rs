@@ -222,6 +222,8 @@ pub enum Shading {
     WovenSatin,
     /// Loops of an even yarn.
     Knitted,
+    /// Loops of a yarn with its twist and fibres.
+    KnittedYarns,
 }
 
 impl Shading {
@@ -236,11 +238,12 @@ impl Shading {
             Shading::Woven => "woven",
             Shading::WovenSatin => "woven_satin",
             Shading::Knitted => "knitted",
+            Shading::KnittedYarns => "knitted_yarns",
         }
     }
 
     /// All of them.
-    pub const ALL: [Shading; 8] = [
+    pub const ALL: [Shading; 9] = [
         Shading::Gouraud,
         Shading::Smooth,
         Shading::Textured,
@@ -249,6 +252,7 @@ impl Shading {
         Shading::Woven,
         Shading::WovenSatin,
         Shading::Knitted,
+        Shading::KnittedYarns,
     ];
 
     /// That of a name.
@@ -260,7 +264,9 @@ impl Shading {
     pub fn suits(self, structure: &Structure) -> bool {
         match self {
             Shading::Woven | Shading::WovenSatin => matches!(structure, Structure::Woven { .. }),
-            Shading::Knitted => matches!(structure, Structure::Knitted { .. }),
+            Shading::Knitted | Shading::KnittedYarns => {
+                matches!(structure, Structure::Knitted { .. })
+            }
             _ => true,
         }
     }

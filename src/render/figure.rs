@@ -35,6 +35,10 @@ pub struct Figure<'a> {
     pub worn: bool,
     /// How cloth is shown.
     pub manner: Manner,
+    /// The fabrics of the panels.
+    pub fabrics: &'a [Fabric],
+    /// Corners of the cloth itself; those of the beads along its edges follow.
+    pub cloth: u32,
 }
 
 /// A corner of triangles.
@@ -81,6 +85,8 @@ pub enum Coat {
 /// A panel of cloth.
 #[derive(Clone, Debug)]
 pub struct Panel {
+    /// Number of its fabric.
+    pub fabric: usize,
     /// Its regions of the atlas.
     pub surfaces: Vec<compiled::Surface>,
     /// Its colour where it has no region.
@@ -114,6 +120,8 @@ impl<'a> Figure<'a> {
             floor: None,
             worn: draped.surfaces.iter().any(|surface| surface.kind == SurfaceKind::Body),
             manner,
+            fabrics: &compiled.fabrics,
+            cloth: 0,
         };
         figure.add_cloth(compiled, draped);
         let mut floor: Option<f32> = None;
@@ -224,6 +232,7 @@ impl<'a> Figure<'a> {
                 .iter()
                 .map(|face| Face { corners: face.corners.map(|k| k + first), coat: face.coat }),
         );
+        self.cloth = self.corners.len() as u32;
         let mut sewn = vec![false; places.len()];
         for k in compiled.seams.iter().flat_map(|seam| &seam.pairs).flatten() {
             if let Some(mark) = sewn.get_mut(*k as usize) {
@@ -249,6 +258,7 @@ impl<'a> Figure<'a> {
         };
         let textile = self.manner.textile;
         Panel {
+            fabric: panel.fabric,
             surfaces: panel
                 .surfaces
                 .iter()

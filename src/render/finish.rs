@@ -141,6 +141,38 @@ impl Look {
         Look { matte, passes: passes(fabric), layers }
     }
 
+    /// A yarn of a fabric after a finish, seen from so near that it is round: the warp (0) or the
+    /// weft (1). Its fibres run along the first direction of the place.
+    pub fn of_yarn(fabric: &Fabric, finish: Finish, thread: usize) -> Self {
+        let fibre = match &fabric.structure {
+            Structure::Woven { warp, weft, .. } => [warp, weft][thread.min(1)].yarn.fibre,
+            Structure::Knitted { yarn, .. } => yarn.fibre,
+        };
+        let gloss = Gloss::of(fibre);
+        let [along, across] = gloss.spread;
+        let (share, mirrored, fur) = match finish {
+            Finish::Matte => (gloss.share, 1.0, 0.08),
+            Finish::Satin => ((1.5 * gloss.share).clamp(0.5, 1.0), FILAMENTS, 0.0),
+            Finish::Wool => (0.4 * gloss.share, 1.0, 0.26),
+            Finish::Raised => (0.15 * gloss.share, 1.0, 0.45),
+            Finish::Velvet => (0.0, 1.0, 0.45),
+        };
+        let mut layers = Vec::new();
+        if share > 0.0 {
+            // The roundness of the yarn spreads the light across it: what is left is the fibre's.
+            let fibres = Schlick {
+                reflectance: (mirrored * gloss.reflectance).min(1.0),
+                roughness: (along * 0.6 * across).max(0.02),
+                isotropy: (along / (0.6 * across)).min(1.0),
+            };
+            layers.push(Layer::new(Model::Schlick(fibres), share, gloss.tint, false));
+        }
+        if fur > 0.0 {
+            layers.push(Layer::new(Model::Charlie(Charlie { order: 1 }), fur, 0.65, false));
+        }
+        Look { matte: 1.0, passes: passes(fabric), layers }
+    }
+
     /// A fabric that sends all light on the matte way.
     pub fn matte(fabric: &Fabric) -> Self {
         Look { matte: 1.0, passes: passes(fabric), layers: Vec::new() }

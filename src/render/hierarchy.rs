@@ -121,12 +121,13 @@ impl Hierarchy {
     }
 
     /// The nearest triangle on the ray's way for which `solid` holds (it is given the triangle's
-    /// number and the shares of its second and third corner).
+    /// number, the shares of its second and third corner, and the distance). The last for which
+    /// it was asked and held is the one.
     pub fn nearest(
         &self,
         ray: &Ray,
         stack: &mut Stack,
-        solid: impl Fn(u32, f32, f32) -> bool,
+        mut solid: impl FnMut(u32, f32, f32, f32) -> bool,
     ) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         let mut reach = ray.reach;
@@ -147,7 +148,7 @@ impl Hierarchy {
                 if lane == WIDTH {
                     return Some(reach);
                 }
-                if solid(packet.number[lane], met.u[lane], met.v[lane]) {
+                if solid(packet.number[lane], met.u[lane], met.v[lane], met.distance[lane]) {
                     reach = met.distance[lane];
                     best = Some(Hit {
                         distance: reach,
@@ -170,13 +171,14 @@ impl Hierarchy {
         &self,
         ray: &Ray,
         stack: &mut Stack,
-        solid: impl Fn(u32, f32, f32) -> bool,
+        solid: impl Fn(u32, f32, f32, f32) -> bool,
     ) -> bool {
         let mut blocked = false;
         self.visit(ray, stack, &mut |_, packet| {
             let met = packet.meet(ray, ray.reach);
             for l in 0..WIDTH {
-                if met.distance[l] < ray.reach && solid(packet.number[l], met.u[l], met.v[l]) {
+                let (number, distance) = (packet.number[l], met.distance[l]);
+                if distance < ray.reach && solid(number, met.u[l], met.v[l], distance) {
                     blocked = true;
                     return None;
                 }
@@ -497,13 +499,13 @@ mod tests {
                 let mut nearest = f32::INFINITY;
                 for [a, b, c] in &triangles {
                     let single = Hierarchy::over(&[[*a, *b, *c]]);
-                    if let Some(hit) = single.nearest(&ray, &mut stack, |_, _, _| true) {
+                    if let Some(hit) = single.nearest(&ray, &mut stack, |_, _, _, _| true) {
                         nearest = nearest.min(hit.distance);
                     }
                 }
-                let found = hierarchy.nearest(&ray, &mut stack, |_, _, _| true);
+                let found = hierarchy.nearest(&ray, &mut stack, |_, _, _, _| true);
                 assert_eq!(found.map_or(f32::INFINITY, |hit| hit.distance), nearest);
-                let blocked = hierarchy.blocked(&ray, &mut stack, |_, _, _| true);
+                let blocked = hierarchy.blocked(&ray, &mut stack, |_, _, _, _| true);
                 assert_eq!(blocked, found.is_some());
             }
         }
@@ -518,10 +520,10 @@ mod tests {
         let origin = Vector::new(0.0, 0.0, 5.0);
         let ray = Ray { origin, direction: -Vector::z(), reach: 10.0 };
         let mut stack = Stack::new();
-        let hit = hierarchy.nearest(&ray, &mut stack, |number, _, _| number < 2);
+        let hit = hierarchy.nearest(&ray, &mut stack, |number, _, _, _| number < 2);
         let (place, normal) = hit.map(|hit| hierarchy.place(&hit)).unwrap_or_default();
         assert_eq!(place, Vector::new(0.0, 0.0, 1.0));
         assert_eq!(normal, Vector::z());
-        assert!(!hierarchy.blocked(&ray, &mut stack, |_, _, _| false));
+        assert!(!hierarchy.blocked(&ray, &mut stack, |_, _, _, _| false));
     }
 }

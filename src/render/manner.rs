@@ -13,6 +13,8 @@ pub struct Manner {
     pub at_corners: bool,
     /// What of the textile is seen.
     pub textile: Textile,
+    /// How far fibres are seen on yarns that are near; none where yarns are never shown as bodies.
+    pub fibres: Option<f32>,
     /// How light leaves it; none as the fabric's own finish says.
     gloss: Option<Gloss>,
 }
@@ -43,22 +45,30 @@ pub const BLURRED: f32 = 2.5e-3;
 impl Manner {
     /// Of a named way, or of none.
     pub fn of(shading: Option<Shading>) -> Self {
-        let own =
-            Manner { curved: true, at_corners: false, textile: Textile::Threads, gloss: None };
+        let own = Manner {
+            curved: true,
+            at_corners: false,
+            textile: Textile::Threads,
+            fibres: Some(1.0),
+            gloss: None,
+        };
         let matte = Some(Gloss::None);
         match shading {
-            None | Some(Shading::Knitted) => own,
+            None | Some(Shading::KnittedYarns) => own,
+            Some(Shading::Knitted) => Manner { fibres: Some(0.0), ..own },
             Some(Shading::Gouraud) => {
-                Manner { curved: false, at_corners: true, textile: Textile::Colour, gloss: matte }
+                let textile = Textile::Colour;
+                Manner { curved: false, at_corners: true, textile, fibres: None, gloss: matte }
             }
             Some(Shading::Smooth) => Manner { textile: Textile::Colour, gloss: matte, ..own },
             Some(Shading::Textured) => Manner { gloss: matte, ..own },
             Some(Shading::Velvet) => {
                 let gloss = Some(Gloss::As(Finish::Velvet));
-                Manner { textile: Textile::Pattern, gloss, ..own }
+                Manner { textile: Textile::Pattern, fibres: None, gloss, ..own }
             }
             Some(Shading::Satin) => {
-                Manner { textile: Textile::Pattern, gloss: Some(Gloss::As(Finish::Satin)), ..own }
+                let gloss = Some(Gloss::As(Finish::Satin));
+                Manner { textile: Textile::Pattern, fibres: None, gloss, ..own }
             }
             Some(Shading::Woven) => Manner { gloss: Some(Gloss::As(Finish::Matte)), ..own },
             Some(Shading::WovenSatin) => Manner { gloss: Some(Gloss::As(Finish::Satin)), ..own },
@@ -72,5 +82,14 @@ impl Manner {
             Some(Gloss::As(finish)) => Look::of_fabric(fabric, finish, back),
             Some(Gloss::None) => Look::matte(fabric),
         }
+    }
+
+    /// The looks of the yarns of a fabric, warp and weft.
+    pub fn yarn_looks(&self, fabric: &Fabric) -> [Look; 2] {
+        let finish = match self.gloss {
+            Some(Gloss::As(finish)) => finish,
+            _ => fabric.finish,
+        };
+        [0, 1].map(|thread| Look::of_yarn(fabric, finish, thread))
     }
 }

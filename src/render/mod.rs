@@ -16,6 +16,7 @@ mod hierarchy;
 mod lamp;
 mod layout;
 mod manner;
+mod near;
 mod pixel;
 mod rim;
 mod sample;
@@ -29,6 +30,7 @@ mod tessellate;
 mod tone;
 mod trace;
 mod wood;
+mod yarn;
 
 use crate::drape::draped::Draped;
 use crate::garment::scene::{Picture, Quality};

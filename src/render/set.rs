@@ -4,8 +4,9 @@ use super::coat;
 use super::figure::{Coat, Corner, Figure};
 use super::finish::{Look, Threads};
 use super::hierarchy::{Hierarchy, Hit, Ray};
+use super::near::{Around, Near, Strike};
 use super::sample::frame;
-use super::tessellate::{Patch, Piece};
+use super::tessellate::{Patch, Piece, divide};
 use super::{Light3, Vector};
 use rayon::prelude::*;
 
@@ -16,9 +17,34 @@ pub struct Set<'a> {
     pub figure: &'a Figure<'a>,
     /// All its pieces.
     pub hierarchy: Hierarchy,
-    pieces: Vec<(u32, Piece)>,
-    /// Whether light comes through between some threads.
+    parts: Vec<Part>,
+    /// Cloth of which the yarns are seen.
+    pub near: Near,
+    /// Whether some triangles do not stop all rays: light comes through between threads, or they
+    /// are shells about yarns.
     pub open: bool,
+}
+
+/// What a triangle of the hierarchy is a part of.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// Number of its face.
+    face: u32,
+    /// Where in it.
+    piece: Piece,
+    /// Of the shell about yarns 1 the side of the face, −1 that of the back; 0 the cloth itself.
+    side: i8,
+}
+
+/// What a ray finds at a triangle.
+#[derive(Clone, Copy, Debug)]
+pub enum Found {
+    /// Something that stops it.
+    Solid,
+    /// Nothing.
+    Open,
+    /// A yarn in the shell that it enters.
+    Yarn(Strike),
 }
 
 /// A place of the figure where light arrives.
@@ -34,6 +60,8 @@ pub struct Place<'a> {
     pub colour: Light3,
     /// How light leaves it.
     pub look: &'a Look,
+    /// On a yarn, what its own cloth keeps from it.
+    pub around: Option<Around<'a>>,
 }
 
 /// Triangles that pieces may add up to; beyond it they stay coarser.
@@ -41,33 +69,56 @@ const MOST_PIECES: usize = 1_500_000;
 
 impl<'a> Set<'a> {
     /// Divides the figure into pieces with edges of about `edge` m and builds the hierarchy.
-    pub fn of(figure: &'a Figure<'a>, edge: f32) -> Self {
+    /// `pixel` is what a pixel covers, m; `seen` tells which places are in the picture.
+    pub fn of(
+        figure: &'a Figure<'a>,
+        edge: f32,
+        pixel: f32,
+        seen: impl Fn(&Vector) -> bool + Sync,
+    ) -> Self {
+        let near = Near::of(figure, pixel);
         let parts = parts_by_coat(figure, edge);
-        let lists: Vec<Vec<(u32, Piece, [Vector; 3])>> = figure
+        let lists: Vec<Vec<(Part, [Vector; 3])>> = figure
             .faces
             .par_chunks(4096)
             .enumerate()
             .map(|(chunk, faces)| {
                 let mut list = Vec::new();
                 for (k, face) in faces.iter().enumerate() {
+                    let number = (chunk * 4096 + k) as u32;
                     let corners = face.corners.map(|c| figure.corners[c as usize]);
-                    let cloth = matches!(figure.coats[face.coat as usize], Coat::Cloth(_));
-                    let flat = cloth && !figure.manner.curved;
-                    let parts = if flat { 1 } else { parts[face.coat as usize] };
-                    let patch = Patch::over(corners.map(|c| c.place), corners.map(|c| c.normal));
-                    patch.divide(parts, |piece, [a, b, c]| {
+                    let coat = &figure.coats[face.coat as usize];
+                    let flat = matches!(coat, Coat::Cloth(_)) && !figure.manner.curved;
+                    let shown = corners.iter().any(|corner| seen(&corner.place));
+                    let parts = if flat || !shown { 1 } else { parts[face.coat as usize] };
+                    let normals = corners.map(|c| c.normal);
+                    let patch = Patch::over(corners.map(|c| c.place), normals);
+                    let mut add = |side: i8, piece, [a, b, c]: [Vector; 3]| {
                         if (b - a).cross(&(c - a)).norm_squared() > 1e-24 {
-                            list.push(((chunk * 4096 + k) as u32, piece, [a, b, c]));
+                            // The back of a shell looks the other way.
+                            let corners = if side < 0 { [a, c, b] } else { [a, b, c] };
+                            list.push((Part { face: number, piece, side }, corners));
                         }
-                    });
+                    };
+                    let own = face.corners.iter().all(|corner| *corner < figure.cloth);
+                    match near.yarns(coat).filter(|_| own && shown) {
+                        Some(yarns) => {
+                            for side in [1, -1] {
+                                let away = f32::from(side) * yarns.bodies.height;
+                                let place = |u, v| patch.place_off(&normals, away, u, v);
+                                divide(parts, place, |piece, at| add(side, piece, at));
+                            }
+                        }
+                        None => patch.divide(parts, |piece, at| add(0, piece, at)),
+                    }
                 }
                 list
             })
             .collect();
-        let mut pieces = Vec::new();
+        let mut parts = Vec::new();
         let mut triangles = Vec::new();
-        for (face, piece, corners) in lists.into_iter().flatten() {
-            pieces.push((face, piece));
+        for (part, corners) in lists.into_iter().flatten() {
+            parts.push(part);
             triangles.push(corners);
         }
         let open = figure.coats.iter().any(|coat| match coat {
@@ -76,24 +127,29 @@ impl<'a> Set<'a> {
             }
             _ => false,
         });
-        Set { figure, hierarchy: Hierarchy::over(&triangles), pieces, open }
+        let open = open || near.any();
+        Set { figure, hierarchy: Hierarchy::over(&triangles), parts, near, open }
     }
 
     /// The place of a hit. `window` is what a pixel covers there, m; none for a rough look.
     pub fn place(&self, hit: &Hit, ray: &Ray, window: Option<f32>) -> Place<'a> {
         let figure = self.figure;
-        let (number, piece) = self.pieces[hit.triangle as usize];
+        let part = &self.parts[hit.triangle as usize];
+        let number = part.face;
         let face = figure.faces[number as usize];
         let corners = face.corners.map(|k| figure.corners[k as usize]);
-        let [u, v] = piece.shares(hit.u, hit.v);
+        let [u, v] = part.shares(hit.u, hit.v);
         let w = 1.0 - u - v;
         let (at, mut flat) = self.hierarchy.place(hit);
         let mut normal = corners[0].normal * w + corners[1].normal * u + corners[2].normal * v;
         let length = normal.norm();
         normal = if length > 1e-6 { normal / length } else { flat };
-        let back = flat.dot(&ray.direction) > 0.0;
-        if back {
+        let behind = flat.dot(&ray.direction) > 0.0;
+        if behind {
             flat = -flat;
+        }
+        let back = behind != (part.side < 0);
+        if back {
             normal = -normal;
         }
         let normal = turned_to_eye(normal, &ray.direction);
@@ -123,35 +179,101 @@ impl<'a> Set<'a> {
                 (colour, &panel.looks[usize::from(back)], threads)
             }
         };
-        Place { at, flat, threads, colour, look }
+        Place { at, flat, threads, colour, look, around: None }
     }
 
     /// The corners of the face that was hit, their shares in the place, and whether it is seen from
     /// behind.
     pub fn corners(&self, hit: &Hit, ray: &Ray) -> ([u32; 3], [f32; 3], bool) {
-        let (number, piece) = self.pieces[hit.triangle as usize];
-        let [u, v] = piece.shares(hit.u, hit.v);
+        let part = &self.parts[hit.triangle as usize];
+        let [u, v] = part.shares(hit.u, hit.v);
         let (_, flat) = self.hierarchy.place(hit);
         let behind = flat.dot(&ray.direction) > 0.0;
-        (self.figure.faces[number as usize].corners, [1.0 - u - v, u, v], behind)
+        (self.figure.faces[part.face as usize].corners, [1.0 - u - v, u, v], behind)
     }
 
     /// Whether the ray, where it meets this, comes from inside a body or solid.
     pub fn leaves_body(&self, hit: &Hit, ray: &Ray) -> bool {
-        let (number, _) = self.pieces[hit.triangle as usize];
-        let coat = &self.figure.coats[self.figure.faces[number as usize].coat as usize];
+        let coat = self.coat(hit.triangle);
         let (_, flat) = self.hierarchy.place(hit);
         !matches!(coat, Coat::Cloth(_)) && flat.dot(&ray.direction) > 0.0
     }
 
+    fn coat(&self, triangle: u32) -> &Coat {
+        let face = self.parts[triangle as usize].face;
+        &self.figure.coats[self.figure.faces[face as usize].coat as usize]
+    }
+
+    /// What a ray finds that is looked along: at a distance at which a pixel covers `window` m.
+    /// `choice` decides where threads and gaps are too fine to tell, `blend` how yarns are shown.
+    pub fn found(
+        &self,
+        triangle: u32,
+        shares: [f32; 2],
+        ray: &Ray,
+        window: f32,
+        [choice, blend]: [f32; 2],
+    ) -> Found {
+        let part = &self.parts[triangle as usize];
+        if part.side != 0 {
+            if let Some(yarns) = self.near.yarns(self.coat(triangle)) {
+                let corners = self.corners_of(part);
+                let shares = part.shares(shares[0], shares[1]);
+                if !part.entered(&corners, &ray.direction) {
+                    return Found::Open;
+                }
+                if blend < yarns.share(window) {
+                    let side = f32::from(part.side);
+                    let strike = yarns.strike(&corners, side, shares, ray);
+                    return strike.map_or(Found::Open, Found::Yarn);
+                }
+            }
+        }
+        let [u, v] = shares;
+        if self.solid(triangle, u, v, &ray.direction, choice) { Found::Solid } else { Found::Open }
+    }
+
+    /// The place of a yarn that a ray meets behind a hit of its shell.
+    pub fn place_on_yarn(&self, hit: &Hit, strike: &Strike, ray: &Ray, window: f32) -> Place<'_> {
+        let part = &self.parts[hit.triangle as usize];
+        let coat = self.coat(hit.triangle);
+        let (Coat::Cloth(panel), Some(yarns)) = (coat, self.near.yarns(coat)) else {
+            return self.place(hit, ray, Some(window));
+        };
+        let rest = strike.rest();
+        let motif = panel.surface_at(rest).and_then(|(surface, [u, v])| {
+            let back = part.side < 0 && self.figure.swatches.has(surface.back);
+            let region = if back { surface.back } else { surface.face };
+            self.figure.swatches.motif(region, u, v, yarns.bodies.pitch)
+        });
+        let shown = yarns.shown(strike, ray, motif, window);
+        let left = self.figure.selvages.left(part.face, rest, window);
+        Place {
+            at: ray.origin + ray.direction * (hit.distance + strike.behind()),
+            flat: shown.flat,
+            threads: shown.threads,
+            colour: shown.colour * left,
+            look: shown.look,
+            around: Some(shown.around),
+        }
+    }
+
+    fn corners_of(&self, part: &Part) -> [&Corner; 3] {
+        let face = self.figure.faces[part.face as usize];
+        face.corners.map(|k| &self.figure.corners[k as usize])
+    }
+
     /// Whether a thread stands at the place of a piece in the way of a ray; `choice` decides where
-    /// threads and gaps are too fine to tell.
+    /// threads and gaps are too fine to tell. A shell stops what enters it, not what leaves it.
     pub fn solid(&self, triangle: u32, u: f32, v: f32, way: &Vector, choice: f32) -> bool {
-        let (face, piece) = self.pieces[triangle as usize];
-        let face = self.figure.faces[face as usize];
+        let part = &self.parts[triangle as usize];
+        let face = self.figure.faces[part.face as usize];
         let Coat::Cloth(panel) = &self.figure.coats[face.coat as usize] else { return true };
-        let [u, v] = piece.shares(u, v).map(f64::from);
-        let corners = face.corners.map(|k| &self.figure.corners[k as usize]);
+        let corners = self.corners_of(part);
+        if part.side != 0 && !part.entered(&corners, way) {
+            return false;
+        }
+        let [u, v] = part.shares(u, v).map(f64::from);
         let [a, b, c] = corners.map(|corner| corner.rest);
         let rest = [0, 1].map(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v);
         let Some((surface, [u, v])) = panel.surface_at(rest) else { return true };
@@ -164,6 +286,19 @@ impl<'a> Set<'a> {
         let own = (layer.wrapping_mul(0x9e37_79b9) >> 8) as f32 * (1.0 / 16_777_216.0);
         let share = choice + own;
         self.figure.swatches.look(surface.face, u, v, 1e-3).cover > share - share.floor()
+    }
+}
+
+impl Part {
+    /// Shares of the face's second and third corner from those of the triangle.
+    fn shares(&self, u: f32, v: f32) -> [f32; 2] {
+        if self.side < 0 { self.piece.shares(v, u) } else { self.piece.shares(u, v) }
+    }
+
+    /// Whether a ray enters the shell here.
+    fn entered(&self, corners: &[&Corner; 3], way: &Vector) -> bool {
+        let normal = corners[0].normal + corners[1].normal + corners[2].normal;
+        normal.dot(way) * f32::from(self.side) < 0.0
     }
 }
 
@@ -222,7 +357,7 @@ pub fn bare(normal: Vector) -> Threads {
 }
 
 /// The smooth normal may lean away from the eye at the outline; it is brought back to the edge.
-fn turned_to_eye(normal: Vector, direction: &Vector) -> Vector {
+pub fn turned_to_eye(normal: Vector, direction: &Vector) -> Vector {
     let away = normal.dot(direction);
     if away < -0.01 {
         return normal;

@@ -12,7 +12,7 @@ use super::sample::Sampler;
 use super::set::Set;
 use super::smooth::Film;
 use super::trace::Tracer;
-use super::{Light3, Options, tone};
+use super::{Light3, Options, Vector, tone};
 use crate::garment::scene::{Background, Picture, View};
 use crate::progress::Progress;
 use image::RgbaImage;
@@ -42,7 +42,13 @@ pub fn print(
     }
     let Layout { frames, scale } = Layout::of(&mut cameras, views, size);
     let distance = cameras.first().map_or(1.0, |camera| camera.away);
-    let set = Set::of(figure, EDGE * distance / scale);
+    let pixel = distance / scale;
+    // Of a picture from near by most of the figure is not seen.
+    let seen = |place: &Vector| {
+        let inside = |at: [f32; 2]| at.iter().all(|share| (-0.5..=1.5).contains(share));
+        picture.field.is_none() || cameras.iter().any(|c| c.picture(place).is_some_and(inside))
+    };
+    let set = Set::of(figure, EDGE * pixel, pixel, seen);
     let blank = || -> Vec<Light3> {
         (0..size[0] as usize * size[1] as usize)
             .into_par_iter()

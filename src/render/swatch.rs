@@ -113,6 +113,14 @@ impl<'a> Swatches<'a> {
         sight
     }
 
+    /// The colour of the motif at a place of a region whose threads are drawn apart from it; none
+    /// where the threads bring their own colours.
+    pub fn motif(&self, region: usize, u: f64, v: f64, wide: f32) -> Option<Light3> {
+        let swatch = self.swatches.get(region)?.as_ref()?;
+        swatch.detail?;
+        Some(self.sight(swatch, u, v, wide).colour)
+    }
+
     fn sight(&self, swatch: &Swatch, u: f64, v: f64, wide: f32) -> Sight {
         let along = [u / swatch.size[0], 1.0 - v / swatch.size[1]];
         let at = along.map(|share| {

@@ -54,10 +54,29 @@ impl Patch {
             + self.middle * (6.0 * u * v * w)
     }
 
+    /// The same moved by `away` along the normals, for the normals of the corners.
+    pub fn place_off(&self, normals: &[Vector; 3], away: f32, u: f32, v: f32) -> Vector {
+        let normal = normals[0] * (1.0 - u - v) + normals[1] * u + normals[2] * v;
+        let length = normal.norm().max(1e-6);
+        self.place(u, v) + normal * (away / length)
+    }
+
     /// Divides every edge into `parts` and hands over each piece with its corners.
-    pub fn divide(&self, parts: u8, mut take: impl FnMut(Piece, [Vector; 3])) {
+    pub fn divide(&self, parts: u8, take: impl FnMut(Piece, [Vector; 3])) {
+        divide(parts, |u, v| self.place(u, v), take);
+    }
+}
+
+/// Divides every edge of a triangle, whose places are `place` by the shares of the second and third
+/// corner, into `parts` and hands over each piece with its corners.
+pub fn divide(
+    parts: u8,
+    place: impl Fn(f32, f32) -> Vector,
+    mut take: impl FnMut(Piece, [Vector; 3]),
+) {
+    {
         let step = 1.0 / f32::from(parts.max(1));
-        let at = |i: u8, j: u8| self.place(f32::from(i) * step, f32::from(j) * step);
+        let at = |i: u8, j: u8| place(f32::from(i) * step, f32::from(j) * step);
         for row in 0..parts {
             for column in 0..parts - row {
                 let (i, j) = (column, row);

@@ -4,8 +4,9 @@ use super::figure::Coat;
 use super::gouraud::CornerLight;
 use super::hierarchy::{Hit, Ray, Stack};
 use super::lamp::Lighting;
+use super::near::Strike;
 use super::sample::{Sampler, cosine_about};
-use super::set::{Place, Set, bare};
+use super::set::{Found, Place, Set, bare};
 use super::{Light3, Vector};
 use std::f32::consts::PI;
 
@@ -106,8 +107,12 @@ impl<'a> Tracer<'a> {
 
     /// Follows one path. `spread` is what a pixel covers at distance 1.
     pub fn path(&mut self, ray: &Ray, spread: f32, sampler: &mut Sampler) -> Seen {
-        if let Some(hit) = self.nearest(ray, sampler) {
-            let place = self.set.place(&hit, ray, Some(spread * hit.distance));
+        if let Some((hit, strike)) = self.looked_at(ray, spread, sampler) {
+            let window = spread * hit.distance;
+            let place = match &strike {
+                Some(strike) => self.set.place_on_yarn(&hit, strike, ray, window),
+                None => self.set.place(&hit, ray, Some(window)),
+            };
             if let Some(light) = self.corners {
                 let (corners, shares, behind) = self.set.corners(&hit, ray);
                 return Seen::Figure(Seeing {
@@ -121,6 +126,35 @@ impl<'a> Tracer<'a> {
             return Seen::Figure(self.seeing(ray, &place, hit.distance, sampler));
         }
         Seen::Paper
+    }
+
+    /// The first that is seen along a ray, and the yarn that is met where cloth is near.
+    fn looked_at(
+        &mut self,
+        ray: &Ray,
+        spread: f32,
+        sampler: &mut Sampler,
+    ) -> Option<(Hit, Option<Strike>)> {
+        let set = self.set;
+        if !set.near.any() {
+            return Some((self.nearest(ray, sampler)?, None));
+        }
+        let choices = sampler.pair();
+        let mut strike = None;
+        let hit = set.hierarchy.nearest(ray, &mut self.stack, |triangle, u, v, distance| match set
+            .found(triangle, [u, v], ray, spread * distance, choices)
+        {
+            Found::Open => false,
+            Found::Solid => {
+                strike = None;
+                true
+            }
+            Found::Yarn(met) => {
+                strike = Some(met);
+                true
+            }
+        });
+        Some((hit?, strike))
     }
 
     /// Matte light on one side of a corner with the coat `coat`, as from a white surface, by one
@@ -143,6 +177,7 @@ impl<'a> Tracer<'a> {
             threads: bare(*normal),
             colour: Light3::repeat(1.0),
             look,
+            around: None,
         };
         let direction = (at - eye).normalize();
         let ray = Ray { origin: *eye, direction, reach: f32::INFINITY };
@@ -219,7 +254,15 @@ impl<'a> Tracer<'a> {
             direction: arrival.direction,
             reach: arrival.distance,
         };
-        (!self.blocked(&ray, sampler)).then_some((arrival.direction, arrival.light))
+        let mut light = arrival.light;
+        if let Some(around) = &place.around {
+            // What comes through a yarn from behind is not kept off by that yarn.
+            if arrival.direction.dot(&normal) > 0.0 && around.keeps(&arrival.direction) {
+                return None;
+            }
+            light *= around.gain();
+        }
+        (!self.blocked(&ray, sampler)).then_some((arrival.direction, light))
     }
 
     /// Light that arrives at a place from a direction, lamps apart.
@@ -231,8 +274,20 @@ impl<'a> Tracer<'a> {
         sampler: &mut Sampler,
     ) -> Light3 {
         let origin = self.off(place, direction);
-        let ray = Ray { origin, direction: *direction, reach: f32::INFINITY };
-        self.light_along(&ray, bounces, sampler)
+        let mut ray = Ray { origin, direction: *direction, reach: f32::INFINITY };
+        let mut share = Light3::repeat(1.0);
+        if let Some(around) = &place.around {
+            let normal = &place.threads.normal;
+            if direction.dot(normal) > 0.0 && around.keeps(direction) {
+                // Another yarn is met. It sends on what comes to it from outside, about as much as
+                // comes from there to this one.
+                let cloth = around.cloth(normal);
+                let into = direction.dot(&cloth).min(0.0);
+                ray.direction = (direction - cloth * (2.0 * into)).normalize();
+                share = place.colour;
+            }
+        }
+        self.light_along(&ray, bounces, sampler).component_mul(&share)
     }
 
     /// Light that comes back along a ray, lamps apart.
@@ -323,7 +378,7 @@ impl<'a> Tracer<'a> {
         let origin = at + Vector::y() * self.lift;
         let ray = Ray { origin, direction: Vector::y(), reach: f32::INFINITY };
         let set = self.set;
-        let hit = set.hierarchy.nearest(&ray, &mut self.stack, |_, _, _| true);
+        let hit = set.hierarchy.nearest(&ray, &mut self.stack, |_, _, _, _| true);
         hit.is_some_and(|hit| hit.distance < STANDS * self.round.1 || set.leaves_body(&hit, &ray))
     }
 
@@ -361,21 +416,21 @@ impl<'a> Tracer<'a> {
     fn nearest(&mut self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
         let set = self.set;
         if !set.open {
-            return set.hierarchy.nearest(ray, &mut self.stack, |_, _, _| true);
+            return set.hierarchy.nearest(ray, &mut self.stack, |_, _, _, _| true);
         }
         let [choice, _] = sampler.pair();
         set.hierarchy
-            .nearest(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
+            .nearest(ray, &mut self.stack, |k, u, v, _| set.solid(k, u, v, &ray.direction, choice))
     }
 
     fn blocked(&mut self, ray: &Ray, sampler: &mut Sampler) -> bool {
         let set = self.set;
         if !set.open {
-            return set.hierarchy.blocked(ray, &mut self.stack, |_, _, _| true);
+            return set.hierarchy.blocked(ray, &mut self.stack, |_, _, _, _| true);
         }
         let [choice, _] = sampler.pair();
         set.hierarchy
-            .blocked(ray, &mut self.stack, |k, u, v| set.solid(k, u, v, &ray.direction, choice))
+            .blocked(ray, &mut self.stack, |k, u, v, _| set.solid(k, u, v, &ray.direction, choice))
     }
 
     /// A start for a ray off the surface, on the side to which it goes.
@@ -433,7 +488,7 @@ mod tests {
         let mut figure = Figure::of(&compiled, &draped, Manner::of(None));
         let look = Look { matte: 1.0, passes: 0.0, layers: Vec::new() };
         figure.coats = vec![Coat::Plain { colour: Light3::repeat(1.0), look }];
-        let set = Set::of(&figure, 0.05);
+        let set = Set::of(&figure, 0.05, 0.02, |_| true);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let mut tracer = Tracer::new(&set, &lighting, 2, Vector::y(), 1.0).floating();
         let mut met = 0;
@@ -457,7 +512,7 @@ mod tests {
     fn curved_triangles_make_the_ball_round() {
         let (compiled, draped) = (Compiled::default(), ball());
         let figure = Figure::of(&compiled, &draped, Manner::of(None));
-        let set = Set::of(&figure, 0.05);
+        let set = Set::of(&figure, 0.05, 0.02, |_| true);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let tracer = &mut Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);
         for k in 0..100 {
@@ -479,7 +534,7 @@ mod tests {
     fn the_floor_is_as_bright_as_empty_where_the_figure_is_far() {
         let (compiled, draped) = (Compiled::default(), ball());
         let figure = Figure::of(&compiled, &draped, Manner::of(None));
-        let set = Set::of(&figure, 0.2);
+        let set = Set::of(&figure, 0.2, 0.02, |_| true);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let mut tracer = Tracer::new(&set, &lighting, 1, Vector::y(), 1.0);
         let mut shade = |x: f32| {

@@ -142,7 +142,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             property("light", "studio|daylight|overcast", "the light =studio"),
             property(
                 "shading",
-                "gouraud|smooth|textured|velvet|satin|woven|woven_satin|knitted",
+                "gouraud|smooth|textured|velvet|satin|woven|woven_satin|knitted|knitted_yarns",
                 "how all cloth is shown; each fabric as what it is unless said",
             ),
             property("quality", "draft|normal|fine", "how much care is taken =normal"),

@@ -7,8 +7,9 @@
 
 mod figure;
 mod knitted;
+mod laid;
 mod light;
-mod noise;
+pub mod noise;
 mod pack;
 mod painter;
 mod repeat;
@@ -16,6 +17,10 @@ mod sari;
 mod strand;
 mod tile;
 mod woven;
+
+pub use laid::Laid;
+pub use strand::{Node, Strand};
+pub use tile::Look as Skin;
 
 use super::compiled::{Atlas, Compiled, Region, Surface};
 use crate::garment::{Garment, cloth};

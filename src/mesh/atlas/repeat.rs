@@ -80,7 +80,8 @@ impl Repeat {
                         yarn.light = super::light::Code::linear(colour);
                     }
                 }
-                let strands = woven::strands(&weave, warp, weft, self.threads, &grid);
+                let strands =
+                    woven::strands(&weave, warp, weft, self.threads, &grid, woven::Form::Picture);
                 let shading = Shading {
                     thread: (pitch[0] + pitch[1]) / 2.0,
                     relief: relief(fabric.finish),

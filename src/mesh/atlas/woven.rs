@@ -13,9 +13,35 @@ pub const WARP: usize = 0;
 /// See [`WARP`].
 pub const WEFT: usize = 1;
 
-/// Height of a thread that lies over one crossing only, as a share of that of a float: the
-/// shorter the stretch, the more it is held down.
-const SINGLE: f32 = 0.6;
+/// What the strands are laid out for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The picture of a tile.
+    Picture,
+    /// Bodies in space.
+    Bodies,
+}
+
+impl Form {
+    /// Height of a thread that lies over one crossing only, as a share of that of a float: the
+    /// shorter the stretch, the more it is held down. Bodies touch at their crossings and hardly
+    /// press into each other.
+    fn single(self) -> f32 {
+        match self {
+            Form::Picture => 0.6,
+            Form::Bodies => 0.9,
+        }
+    }
+
+    /// Nodes from crossing to crossing, which are `step` px apart.
+    fn parts(self, step: f32) -> usize {
+        match self {
+            Form::Picture if step > 5.0 => 4,
+            Form::Picture => 2,
+            Form::Bodies => 8,
+        }
+    }
+}
 
 /// How much wider than round a yarn is pressed in cloth.
 const PRESSED: f64 = 1.45;
@@ -48,6 +74,7 @@ pub fn strands(
     weft: &Thread,
     threads: [usize; 2],
     grid: &Grid,
+    form: Form,
 ) -> Vec<Strand> {
     let pitch = [grid.width as f32 / threads[0] as f32, grid.height as f32 / threads[1] as f32];
     let width = [filled(warp) as f32 * pitch[0] / 2.0, filled(weft) as f32 * pitch[1] / 2.0];
@@ -64,6 +91,7 @@ pub fn strands(
             stray: 0.035 * pitch[0],
             half: width[0],
             thick,
+            form,
             slub: slub(warp.yarn.fibre),
             seed: 11,
         };
@@ -81,6 +109,7 @@ pub fn strands(
             stray: 0.035 * pitch[1],
             half: width[1],
             thick,
+            form,
             slub: slub(weft.yarn.fibre),
             seed: 12,
         };
@@ -100,6 +129,7 @@ struct Course {
     stray: f32,
     half: f32,
     thick: f32,
+    form: Form,
     slub: f32,
     seed: u32,
 }
@@ -108,13 +138,13 @@ impl Course {
     /// Nodes from the middle of the first crossing to its image a tile further on. `up` says at
     /// which crossings the thread lies on top.
     fn nodes(&self, up: impl Fn(usize) -> bool, place: impl Fn(f32, f32) -> [f32; 2]) -> Vec<Node> {
-        let parts = if self.step > 5.0 { 4 } else { 2 };
+        let (parts, single) = (self.form.parts(self.step), self.form.single());
         let number = self.number as u32;
         let rise = |crossing: usize| {
             let side = up(crossing);
             let before = up((crossing + self.crossings - 1) % self.crossings);
             let after = up((crossing + 1) % self.crossings);
-            let height = if side == before || side == after { 1.0 } else { SINGLE };
+            let height = if side == before || side == after { 1.0 } else { single };
             if side { height } else { -height }
         };
         // Wavelengths of about six and nine threads, fitted to the tile.
@@ -130,7 +160,7 @@ impl Course {
                 let next = rise((crossing + 1) % self.crossings);
                 let level = here + (next - here) * noise::ease(fraction);
                 // A float lies freely and spreads; where a thread is bound it is drawn in.
-                let spread = 0.2 * ((level - SINGLE) / (1.0 - SINGLE)).clamp(0.0, 1.0);
+                let spread = 0.2 * ((level - single) / (1.0 - single)).clamp(0.0, 1.0);
                 let drawn_in = 1.0 - 0.16 * (1.0 - level.abs());
                 let bend = noise::line(self.seed ^ (number << 8), share * bends as f32, bends);
                 let swell =
