@@ -94,7 +94,7 @@ impl Look {
             }
             Finish::Velvet if !back => {
                 let gloss = Gloss::of(fibres[0]);
-                let pile = Ashikhmin::velvet(PILE, 0.55);
+                let pile = Ashikhmin::velvet(PILE, 0.9);
                 let model = Model::Ashikhmin(Box::new(pile));
                 layers.push(Layer::new(model, 1.0, gloss.tint.max(0.8), false));
             }
@@ -265,7 +265,7 @@ const FILAMENTS: f32 = 2.6;
 
 /// Reflectance of the sides of a pile: light that grazes upright fibres meets one after another,
 /// and most of it is sent on.
-const PILE: f32 = 0.6;
+const PILE: f32 = 0.8;
 
 impl Layer {
     fn new(model: Model, share: f32, tint: f32, across: bool) -> Self {

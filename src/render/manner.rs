@@ -60,8 +60,10 @@ impl Manner {
                 let textile = Textile::Colour;
                 Manner { curved: false, at_corners: true, textile, fibres: None, gloss: matte }
             }
-            Some(Shading::Smooth) => Manner { textile: Textile::Colour, gloss: matte, ..own },
-            Some(Shading::Textured) => Manner { gloss: matte, ..own },
+            Some(Shading::Smooth) => {
+                Manner { textile: Textile::Colour, fibres: None, gloss: matte, ..own }
+            }
+            Some(Shading::Textured) => Manner { fibres: None, gloss: matte, ..own },
             Some(Shading::Velvet) => {
                 let gloss = Some(Gloss::As(Finish::Velvet));
                 Manner { textile: Textile::Pattern, fibres: None, gloss, ..own }

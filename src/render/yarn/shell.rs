@@ -118,3 +118,32 @@ fn leaves(start: f32, slope: f32, bend: f32, height: f32) -> f32 {
     }
     least
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_leaves_a_flat_shell_below_and_a_bent_one_above() {
+        // Straight down from the top: through both heights.
+        assert!((leaves(1.0, -1.0, 0.0, 1.0) - 2.0).abs() < 1e-5);
+        // Grazing a cloth that bends away: s/10 down, s²/20 up, back at the top after 2 m.
+        assert!((leaves(1.0, -0.1, 0.1, 1.0) - 2.0).abs() < 1e-4);
+        // From within it goes on to the nearer side.
+        assert!((leaves(0.0, 0.5, 0.0, 1.0) - 2.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn directions_and_normals_go_to_the_world_as_the_cloth_is_drawn() {
+        // Sheared by half along the weft.
+        let axes = [Vector::x(), Vector::new(0.5, 1.0, 0.0), Vector::z()];
+        let course = Course { origin: Vector::zeros(), axes, bends: [Vector::zeros(); 2] };
+        let warp = course.outwards(&Vector::y());
+        assert!((warp - Vector::new(0.5, 1.0, 0.0).normalize()).norm() < 1e-6);
+        // The side of a warp thread still stands on it.
+        let side = course.normal_outwards(&Vector::x());
+        assert!(side.dot(&warp).abs() < 1e-6 && side.x > 0.8);
+        let own = course.inwards(&axes[1]).unwrap();
+        assert!((own - Vector::y()).norm() < 1e-6);
+    }
+}

@@ -17,13 +17,13 @@ pub struct Surface {
 }
 
 /// Fibres that are told apart round a yarn.
-const AROUND: u32 = 26;
+const AROUND: u32 = 72;
 
 /// Depth of the groove between plies over the radius, as far as it turns the normal.
-const GROOVE: f32 = 0.32;
+const GROOVE: f32 = 0.5;
 
 /// The same of fibres.
-const RIDGE: f32 = 0.045;
+const RIDGE: f32 = 0.022;
 
 impl Surface {
     /// At a place of a yarn. `up` stands on the cloth; `twist` and `fine` from 0 to 1 are how far
@@ -79,17 +79,18 @@ impl Place<'_> {
     /// Fibres, from −1 to 1: two layers of them, the coarser the longer.
     fn fibres(&self, turned: f32, share: f32) -> f32 {
         let seed = 0x5eed ^ self.strand;
-        let cells = (self.skin.turns / 2).max(8) * 2;
+        let cells = self.skin.turns.max(8);
         let fine =
             noise::plane(seed, turned * AROUND as f32, share * cells as f32, [AROUND, cells]);
-        let coarse = AROUND / 2;
+        let coarse = AROUND / 3;
+        let long = cells / 2;
         let broad = noise::plane(
             seed ^ 0xf1b,
             turned * coarse as f32,
-            share * (cells / 2) as f32,
-            [coarse, cells / 2],
+            share * long as f32,
+            [coarse, long],
         );
-        0.6 * fine + 0.5 * broad
+        0.7 * fine + 0.4 * broad
     }
 
     /// Height over the round yarn, in radii.
@@ -97,7 +98,7 @@ impl Place<'_> {
         let turned = self.turned(angle, share);
         let groove = self.groove(turned);
         // Two round plies meet in a sharp groove: the rise of a circle.
-        let ply = -GROOVE * groove * groove / self.skin.plies.max(1) as f32;
+        let ply = -GROOVE * groove * groove / (self.skin.plies.max(2) as f32).sqrt();
         self.twist * ply + RIDGE * self.fine * (self.skin.fibre / 0.2) * self.fibres(turned, share)
     }
 
