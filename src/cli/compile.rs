@@ -66,7 +66,7 @@ fn keep(folder: &Path, compiled: &Compiled) -> Result<(), Stop> {
     if let Some(picture) =
         image::RgbaImage::from_raw(atlas.width, atlas.height, atlas.pixels.clone())
     {
-        output::write_png(&folder.join("atlas.png"), &picture)?;
+        output::write_png(&folder.join("atlas.png"), picture)?;
     }
     output::write(&folder.join("mesh.json"), |out| mesh::json::write(compiled, out))
 }

@@ -43,9 +43,10 @@ fn open_to_all(_file: &std::fs::File) -> std::io::Result<()> {
 }
 
 /// Writes a picture as PNG.
-pub(super) fn write_png(path: &Path, picture: &image::RgbaImage) -> Result<(), Stop> {
+pub(super) fn write_png(path: &Path, picture: impl Into<image::DynamicImage>) -> Result<(), Stop> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture
+        .into()
         .write_to(&mut bytes, image::ImageFormat::Png)
         .map_err(|e| Stop::Call(format!("cannot encode `{}`: {e}", path.display())))?;
     write(path, |out| out.write_all(bytes.get_ref()))

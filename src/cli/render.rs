@@ -5,14 +5,17 @@ use super::project::Project;
 use super::{Input, Stop, Work, drape, output};
 use crate::garment::scene::{Background, Picture, Quality, Shading, View};
 use crate::mesh::compiled::Compiled;
-use crate::render::Options;
+use crate::render::{Options, Pass};
 use std::path::PathBuf;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   darzi render skirt.garment -o skirt.png
   darzi render skirt.garment -o skirt.png --view front,back --size 1600x1200
-  darzi render skirt.garment -o long.png --set length=80cm")]
+  darzi render skirt.garment -o long.png --set length=80cm
+  darzi render skirt.garment -o cloth.png --field 3cm --quality fine
+  darzi render skirt.garment -o turn.png --turntable 36 --background none
+  darzi render skirt.garment -o skirt.png --passes depth,strain")]
 pub(super) struct Render {
     #[command(flatten)]
     input: Input,
@@ -47,8 +50,37 @@ pub(super) struct Render {
     #[arg(long, value_name = "LENGTH", value_parser = field)]
     field: Option<f64>,
 
+    /// Go so far round the figure, towards the wearer's left: 30deg [default: the file's own]
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
+    turn: Option<f64>,
+
+    /// So many pictures on the way once round, OUT.000.png, OUT.001.png …, not OUT.png itself
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=999))]
+    turntable: Option<u16>,
+
+    /// Beside the picture, figures for every pixel as OUT.NAME.png: depth (0.1 mm), normal, fabric
+    /// (its number), strain (0.01 %); several with commas
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = pass)]
+    passes: Vec<Pass>,
+
     #[command(flatten)]
     work: Work,
+}
+
+fn pass(text: &str) -> Result<Pass, String> {
+    Pass::ALL
+        .into_iter()
+        .find(|pass| pass.name() == text)
+        .ok_or_else(|| format!("passes are {}", Pass::ALL.map(Pass::name).join(", ")))
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    let degrees = text.strip_suffix("deg").and_then(|number| number.trim().parse::<f64>().ok());
+    match degrees {
+        Some(degrees) if degrees.abs() <= 360.0 => Ok(degrees.to_radians()),
+        Some(_) => Err("a turn goes once round at most".to_owned()),
+        None => Err(format!("`{text}` is not an angle; write it as 30deg")),
+    }
 }
 
 fn shading(text: &str) -> Result<Shading, String> {
@@ -134,15 +166,33 @@ impl Render {
             quality: self.quality.or(asked.map(|p| p.quality)).unwrap_or_default(),
             background: self.background.or(asked.map(|p| p.background)).unwrap_or_default(),
             field: self.field.or(asked.and_then(|p| p.field)),
+            turn: self.turn.or(asked.and_then(|p| p.turn)),
         };
-        let sheet = crate::render::render(
-            &compiled,
-            &draped,
-            &picture,
-            &Options::of(picture.quality),
-            &mut Bar::new(),
-        );
-        output::write_png(&self.output, &sheet)?;
+        let turns: Vec<Option<f64>> = match self.turntable {
+            Some(count) => {
+                let share = |k: u16| f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+                (0..count).map(|k| Some(picture.turn.unwrap_or(0.0) + share(k))).collect()
+            }
+            None => vec![picture.turn],
+        };
+        for (number, turn) in turns.into_iter().enumerate() {
+            let picture = Picture { turn, ..picture.clone() };
+            let path = match self.turntable {
+                Some(_) => self.output.with_extension(format!("{number:03}.png")),
+                None => self.output.clone(),
+            };
+            let options = Options::of(picture.quality);
+            let sheet =
+                crate::render::render(&compiled, &draped, &picture, &options, &mut Bar::new());
+            output::write_png(&path, sheet)?;
+            if !self.passes.is_empty() {
+                let images = crate::render::passes(&compiled, &draped, &picture, &self.passes);
+                for (pass, image) in self.passes.iter().zip(images) {
+                    let end = format!("{}.png", pass.name());
+                    output::write_png(&path.with_extension(end), image)?;
+                }
+            }
+        }
         drape::verdict(&project, &garment, &draped)
     }
 }

@@ -21,6 +21,8 @@ const SPEED: f64 = 2e-3;
 const WITHIN: f64 = 20.0;
 /// Frames per second that are kept, where nothing else is said.
 const RATE: f64 = 60.0;
+/// How far a camera may go round, rad.
+const TURN: f64 = 2.0 * std::f64::consts::PI;
 /// Heights of what a view may show, m.
 const FIELD: [f64; 2] = [2e-3, 10.0];
 
@@ -218,8 +220,12 @@ impl<'t> Evaluator<'t> {
             Some(arg) => Some(self.within_range(arg, Dimension::LENGTH, FIELD[0], FIELD[1])?),
             None => None,
         };
+        let turn = match fields.value("turn") {
+            Some(arg) => Some(self.within_range(arg, Dimension::ANGLE, -TURN, TURN)?),
+            None => None,
+        };
         let shading = shading.and_then(Shading::named);
-        Some(Picture { views, size, light, shading, quality, background, field })
+        Some(Picture { views, size, light, shading, quality, background, field, turn })
     }
 
     /// Whether all cloth can be shown as the picture asks.

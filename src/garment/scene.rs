@@ -184,6 +184,10 @@ pub struct Picture {
     /// Height of what each view shows, m, about the middle of the cloth; none shows all.
     #[serde(default)]
     pub field: Option<f64>,
+    /// How far the camera has gone round the figure, rad, towards the wearer's left. Where it is
+    /// said all turns show the figure at one scale.
+    #[serde(default)]
+    pub turn: Option<f64>,
 }
 
 impl Default for Picture {
@@ -197,6 +201,7 @@ impl Default for Picture {
             quality: Quality::Normal,
             background: Background::Paper,
             field: None,
+            turn: None,
         }
     }
 }

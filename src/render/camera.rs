@@ -56,8 +56,14 @@ fn rise(view: View, size: &Vector, worn: bool) -> f32 {
 
 impl Camera {
     /// Cameras for views of things at `places`, all at one distance, each looking at just what
-    /// there is to see.
-    pub fn around(places: &[Vector], views: &[View], worn: bool) -> Vec<Self> {
+    /// there is to see. With `further` they have gone so far round, rad, and look at what is to
+    /// be seen from all round.
+    pub fn around(
+        places: &[Vector],
+        views: &[View],
+        worn: bool,
+        further: Option<f32>,
+    ) -> Vec<Self> {
         let nothing = (Vector::repeat(f32::INFINITY), Vector::repeat(f32::NEG_INFINITY));
         let (low, high) =
             places.iter().fold(nothing, |(low, high), place| (low.inf(place), high.sup(place)));
@@ -70,7 +76,7 @@ impl Camera {
         let extent = ((high - low).max() * 0.5).max(1e-3);
         let up = if worn { (BREAST - 0.5) * (high.y - low.y) } else { 0.0 };
         let make = |view: &View| {
-            let turn = turn(*view);
+            let turn = turn(*view) + further.unwrap_or(0.0);
             let rise = rise(*view, &(high - low), worn);
             let front = Vector::new(libm::sinf(turn), 0.0, libm::cosf(turn));
             let right = Vector::new(front.z, 0.0, -front.x);
@@ -84,6 +90,9 @@ impl Camera {
                 stand: Stand { middle, extent, right, front },
             };
             camera.window = camera.seen(places);
+            if further.is_some() {
+                camera.window = camera.swept(places);
+            }
             camera
         };
         views.iter().map(make).collect()
@@ -116,6 +125,25 @@ impl Camera {
             .filter_map(|place| self.film(place))
             .fold(nothing, |w, [x, y]| [w[0].min(x), w[1].min(y), w[2].max(x), w[3].max(y)]);
         if seen[0] <= seen[2] { seen } else { [-0.1, -0.1, 0.1, 0.1] }
+    }
+
+    /// The window that holds the places whichever way they are turned about the upright line
+    /// through their middle.
+    fn swept(&self, places: &[Vector]) -> Window {
+        places.iter().fold(self.window, |window, place| {
+            let off = place - self.stand.middle;
+            let out = (off.x * off.x + off.z * off.z).sqrt();
+            let mut window = window;
+            for step in 0..16 {
+                let (sine, cosine) = libm::sincosf(step as f32 * std::f32::consts::PI / 8.0);
+                let turned = Vector::new(out * sine, off.y, out * cosine) + self.stand.middle;
+                if let Some([x, y]) = self.film(&turned) {
+                    window =
+                        [window[0].min(x), window[1].min(y), window[2].max(x), window[3].max(y)];
+                }
+            }
+            window
+        })
     }
 
     /// Where a place comes to lie on the film at distance 1, if it is before the camera.
@@ -165,7 +193,7 @@ mod tests {
 
     #[test]
     fn the_figure_just_fills_every_window() {
-        for camera in Camera::around(&person(), &ALL, true) {
+        for camera in Camera::around(&person(), &ALL, true, None) {
             let places: Vec<[f32; 2]> =
                 person().iter().filter_map(|place| camera.picture(place)).collect();
             assert_eq!(places.len(), 8);
@@ -182,7 +210,7 @@ mod tests {
         let corners =
             [[-0.2, 0.5], [0.2, 0.5], [-0.2, 1.1], [0.2, 1.1]].map(|[x, y]| Vector::new(x, y, 0.0));
         for worn in [false, true] {
-            let camera = Camera::around(&corners, &[View::Front], worn)[0];
+            let camera = Camera::around(&corners, &[View::Front], worn, None)[0];
             let [a, b, c, d] = corners.map(|p| camera.film(&p).unwrap_or_default());
             assert!((a[0] - c[0]).abs() < 1e-6 && (b[0] - d[0]).abs() < 1e-6);
             assert!((a[1] - b[1]).abs() < 1e-6 && (c[1] - d[1]).abs() < 1e-6);
@@ -191,7 +219,7 @@ mod tests {
 
     #[test]
     fn feet_stand_on_one_line_in_upright_views() {
-        let cameras = Camera::around(&person(), &ALL[..4], true);
+        let cameras = Camera::around(&person(), &ALL[..4], true, None);
         let foot = Vector::new(0.0, 0.0, 0.025);
         let lines: Vec<f32> =
             cameras.iter().map(|camera| camera.film(&foot).unwrap_or_default()[1]).collect();
@@ -200,7 +228,7 @@ mod tests {
 
     #[test]
     fn the_wearers_left_is_to_the_right_in_front_and_to_the_left_behind() {
-        let cameras = Camera::around(&person(), &ALL, true);
+        let cameras = Camera::around(&person(), &ALL, true, None);
         let left = Vector::new(0.3, 1.2, 0.0);
         let across = |k: usize, place: &Vector| cameras[k].picture(place).unwrap_or_default()[0];
         assert!(across(0, &left) > 0.6);
@@ -212,7 +240,7 @@ mod tests {
     #[test]
     fn rays_go_where_the_picture_says() {
         let place = Vector::new(0.2, 0.7, 0.1);
-        for camera in Camera::around(&person(), &ALL, true) {
+        for camera in Camera::around(&person(), &ALL, true, None) {
             let [x, y] = camera.picture(&place).unwrap_or_default();
             let ray = camera.ray(x, y);
             let along = (place - ray.origin).normalize();

@@ -68,6 +68,8 @@ pub enum Coat {
     Cloth(Panel),
     /// One colour all over.
     Plain {
+        /// Whether it is a body.
+        body: bool,
         /// The colour.
         colour: Light3,
         /// How light leaves it.
@@ -276,11 +278,13 @@ impl<'a> Figure<'a> {
         let coat = self.coats.len() as u32;
         self.coats.push(match (surface.kind, solid.and_then(Wood::of)) {
             (SurfaceKind::Body, _) => {
-                Coat::Plain { colour: Light3::new(0.530, 0.484, 0.424), look: Look::of_body() }
+                let colour = Light3::new(0.530, 0.484, 0.424);
+                Coat::Plain { body: true, colour, look: Look::of_body() }
             }
             (SurfaceKind::Solid, Some(wood)) => Coat::Wood { wood, look: Look::of_solid() },
             (SurfaceKind::Solid, None) => {
-                Coat::Plain { colour: Light3::new(0.50, 0.485, 0.465), look: Look::of_solid() }
+                let colour = Light3::new(0.50, 0.485, 0.465);
+                Coat::Plain { body: false, colour, look: Look::of_solid() }
             }
         });
         let first = self.corners.len() as u32;

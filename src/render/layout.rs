@@ -135,7 +135,7 @@ mod tests {
 
     fn laid(views: &[View], size: [u32; 2]) -> (Layout, Vec<Camera>) {
         let person = [Vector::new(-0.35, 0.0, -0.2), Vector::new(0.35, 1.7, 0.2)];
-        let mut cameras = Camera::around(&person, views, true);
+        let mut cameras = Camera::around(&person, views, true, None);
         let layout = Layout::of(&mut cameras, views, size);
         (layout, cameras)
     }

@@ -17,6 +17,7 @@ mod lamp;
 mod layout;
 mod manner;
 mod near;
+mod pass;
 mod pixel;
 mod rim;
 mod sample;
@@ -32,11 +33,13 @@ mod trace;
 mod wood;
 mod yarn;
 
+pub use pass::Pass;
+
 use crate::drape::draped::Draped;
-use crate::garment::scene::{Picture, Quality};
+use crate::garment::scene::{Picture, Quality, Shading};
 use crate::mesh::compiled::Compiled;
 use crate::progress::Progress;
-use image::RgbaImage;
+use image::{DynamicImage, RgbaImage};
 
 /// A vector or point of the pictures, m.
 type Vector = nalgebra::Vector3<f32>;
@@ -90,4 +93,18 @@ pub fn render(
     progress.share(0.0, "building");
     let figure = figure::Figure::of(compiled, draped, manner::Manner::of(picture.shading));
     sheet::print(&figure, picture, options, progress)
+}
+
+/// Figures for every pixel of the picture that [`render`] makes of the same values, one image for
+/// each of `wanted`.
+pub fn passes(
+    compiled: &Compiled,
+    draped: &Draped,
+    picture: &Picture,
+    wanted: &[Pass],
+) -> Vec<DynamicImage> {
+    // Yarns as bodies would make holes between threads: the cloth is taken as a smooth sheet.
+    let manner = manner::Manner::of(Some(Shading::Smooth));
+    let figure = figure::Figure::of(compiled, draped, manner);
+    pass::passes(&figure, picture, wanted)
 }

@@ -200,20 +200,22 @@ fn rest(corners: &[&Corner; 3], [u, v]: [f32; 2]) -> [f64; 2] {
     [0, 1].map(|k| a.rest[k] * (1.0 - u - v) + b.rest[k] * u + c.rest[k] * v)
 }
 
-/// The directions of the cloth between three corners.
-fn course(corners: &[&Corner; 3], [u, v]: [f32; 2]) -> Option<Course> {
+/// What grows by `first` from the first corner to the second and by `second` to the third, in a
+/// metre along weft and warp.
+pub fn along(corners: &[&Corner; 3], first: Vector, second: Vector) -> Option<[Vector; 2]> {
     let [a, b, c] = corners;
     let [u1, v1] = [0, 1].map(|k| (b.rest[k] - a.rest[k]) as f32);
     let [u2, v2] = [0, 1].map(|k| (c.rest[k] - a.rest[k]) as f32);
     let area = u1 * v2 - u2 * v1;
-    if area.abs() < 1e-14 {
-        return None;
-    }
-    let along = |first: Vector, second: Vector| {
-        [(first * v2 - second * v1) / area, (second * u1 - first * u2) / area]
-    };
-    let [weft, warp] = along(b.place - a.place, c.place - a.place);
-    let bends = along(b.normal - a.normal, c.normal - a.normal);
+    (area.abs() > 1e-14)
+        .then(|| [(first * v2 - second * v1) / area, (second * u1 - first * u2) / area])
+}
+
+/// The directions of the cloth between three corners.
+fn course(corners: &[&Corner; 3], [u, v]: [f32; 2]) -> Option<Course> {
+    let [a, b, c] = corners;
+    let [weft, warp] = along(corners, b.place - a.place, c.place - a.place)?;
+    let bends = along(corners, b.normal - a.normal, c.normal - a.normal)?;
     let normal = a.normal * (1.0 - u - v) + b.normal * u + c.normal * v;
     let normal = normal.try_normalize(1e-6)?;
     Some(Course { origin: Vector::zeros(), axes: [weft, warp, normal], bends })

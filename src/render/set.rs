@@ -155,7 +155,7 @@ impl<'a> Set<'a> {
         let normal = turned_to_eye(normal, &ray.direction);
         let coat = &figure.coats[face.coat as usize];
         let (colour, look, threads) = match coat {
-            Coat::Plain { colour, look } => (*colour, look, bare(normal)),
+            Coat::Plain { colour, look, .. } => (*colour, look, bare(normal)),
             Coat::Wood { wood, look } => {
                 (wood.colour(&at, window.unwrap_or(0.02)), look, bare(normal))
             }
@@ -197,6 +197,11 @@ impl<'a> Set<'a> {
         let coat = self.coat(hit.triangle);
         let (_, flat) = self.hierarchy.place(hit);
         !matches!(coat, Coat::Cloth(_)) && flat.dot(&ray.direction) > 0.0
+    }
+
+    /// The face that was hit.
+    pub fn face(&self, hit: &Hit) -> u32 {
+        self.parts[hit.triangle as usize].face
     }
 
     fn coat(&self, triangle: u32) -> &Coat {

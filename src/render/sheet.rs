@@ -24,6 +24,44 @@ const EDGE: f32 = 3.0;
 /// Rows that are traced between two words on the progress.
 const BAND: usize = 48;
 
+/// A figure with the cameras that look at it.
+pub struct Stage<'a> {
+    /// One for each view.
+    pub cameras: Vec<Camera>,
+    /// Their places on the sheet.
+    pub frames: Vec<Frame>,
+    /// What they look at.
+    pub set: Set<'a>,
+    /// Pixels of the sheet.
+    pub size: [u32; 2],
+}
+
+impl<'a> Stage<'a> {
+    /// For a picture.
+    pub fn of(figure: &'a Figure<'a>, picture: &Picture) -> Self {
+        let size = picture.size.map(|n| n.max(1));
+        let views = if picture.views.is_empty() { &[View::Front][..] } else { &picture.views };
+        let turn = picture.turn.map(|turn| turn as f32);
+        let mut cameras = Camera::around(&figure.places(), views, figure.worn, turn);
+        if let Some(field) = picture.field {
+            let (aim, field) = (figure.middle(), (field as f32).max(1e-4));
+            for camera in &mut cameras {
+                *camera = camera.close_up(&aim, field, |ray| figure.meets(ray));
+            }
+        }
+        let Layout { frames, scale } = Layout::of(&mut cameras, views, size);
+        let distance = cameras.first().map_or(1.0, |camera| camera.away);
+        let pixel = distance / scale;
+        // Of a picture from near by most of the figure is not seen.
+        let seen = |place: &Vector| {
+            let inside = |at: [f32; 2]| at.iter().all(|share| (-0.5..=1.5).contains(share));
+            picture.field.is_none() || cameras.iter().any(|c| c.picture(place).is_some_and(inside))
+        };
+        let set = Set::of(figure, EDGE * pixel, pixel, seen);
+        Stage { cameras, frames, set, size }
+    }
+}
+
 /// Traces all views on to one sheet.
 pub fn print(
     figure: &Figure,
@@ -31,24 +69,7 @@ pub fn print(
     options: &Options,
     progress: &mut dyn Progress,
 ) -> RgbaImage {
-    let size = picture.size.map(|n| n.max(1));
-    let views = if picture.views.is_empty() { &[View::Front][..] } else { &picture.views };
-    let mut cameras = Camera::around(&figure.places(), views, figure.worn);
-    if let Some(field) = picture.field {
-        let (aim, field) = (figure.middle(), (field as f32).max(1e-4));
-        for camera in &mut cameras {
-            *camera = camera.close_up(&aim, field, |ray| figure.meets(ray));
-        }
-    }
-    let Layout { frames, scale } = Layout::of(&mut cameras, views, size);
-    let distance = cameras.first().map_or(1.0, |camera| camera.away);
-    let pixel = distance / scale;
-    // Of a picture from near by most of the figure is not seen.
-    let seen = |place: &Vector| {
-        let inside = |at: [f32; 2]| at.iter().all(|share| (-0.5..=1.5).contains(share));
-        picture.field.is_none() || cameras.iter().any(|c| c.picture(place).is_some_and(inside))
-    };
-    let set = Set::of(figure, EDGE * pixel, pixel, seen);
+    let Stage { cameras, frames, set, size } = Stage::of(figure, picture);
     let blank = || -> Vec<Light3> {
         (0..size[0] as usize * size[1] as usize)
             .into_par_iter()

@@ -487,7 +487,7 @@ mod tests {
         let (compiled, draped) = (Compiled::default(), ball());
         let mut figure = Figure::of(&compiled, &draped, Manner::of(None));
         let look = Look { matte: 1.0, passes: 0.0, layers: Vec::new() };
-        figure.coats = vec![Coat::Plain { colour: Light3::repeat(1.0), look }];
+        figure.coats = vec![Coat::Plain { body: false, colour: Light3::repeat(1.0), look }];
         let set = Set::of(&figure, 0.05, 0.02, |_| true);
         let lighting = Lighting { lamps: vec![], dome: Dome::even(1.0) };
         let mut tracer = Tracer::new(&set, &lighting, 2, Vector::y(), 1.0).floating();

@@ -88,7 +88,7 @@ impl Test {
         let Hung { compiled, draped } = &hung;
         let options = Default::default();
         let sheet = crate::render::render(compiled, draped, &picture, &options, &mut Bar::new());
-        output::write_png(path, &sheet)
+        output::write_png(path, sheet)
     }
 
     fn cantilever(&self, fabric: &Fabric) -> Result<Hung, Stop> {

@@ -147,6 +147,7 @@ pub(super) const TABLES: &[Vocabulary] = &[
             ),
             property("quality", "draft|normal|fine", "how much care is taken =normal"),
             property("background", "paper|none", "what stands behind =paper"),
+            property("turn", "ANGLE", "how far the camera goes round, towards the wearer's left"),
             property("field", "LENGTH", "height of what a view shows, for pictures from near by"),
             property("show", "worn|on_line|flat", "how a sari is shown =on_line"),
         ],

@@ -173,7 +173,7 @@ impl Bodies {
                 gap[k] = field[k] / d.abs();
             }
         }
-        let mut best: Option<(f32, u32, f32)> = None;
+        let mut best: Option<(f32, u32)> = None;
         let mut here = start;
         // Longer ways than this are those of rays that run within the cloth.
         for _ in 0..96 {
@@ -188,32 +188,37 @@ impl Bodies {
                 self.begins[number as usize] as usize..self.begins[number as usize + 1] as usize;
             for &number in &self.list[list] {
                 let piece = &self.pieces[number as usize];
-                if let Some((distance, share)) = piece.meet(&origin, &line.direction) {
-                    let nearer = best.is_none_or(|(least, ..)| distance < least);
+                if let Some(distance) = piece.meet(&origin, &line.direction) {
+                    let nearer = best.is_none_or(|(least, _)| distance < least);
                     if distance > start && distance < end && nearer {
-                        best = Some((distance, number, share));
+                        best = Some((distance, number));
                     }
                 }
             }
             let axis = usize::from(next[1] < next[0]);
             here = here.max(next[axis]);
-            if best.is_some_and(|(distance, ..)| distance <= here) || here >= end {
+            if best.is_some_and(|(distance, _)| distance <= here) || here >= end {
                 break;
             }
             cell[axis] += step[axis];
             next[axis] += gap[axis];
         }
-        let (distance, number, share) = best?;
+        let (distance, number) = best?;
         let piece = &self.pieces[number as usize];
         // Pieces lie in one tile: the place in it is found anew.
-        let at = line.origin + line.direction * distance;
-        let middle = piece.from + piece.along * share;
-        let off = [0, 1].map(|k| {
-            let off = at[k] - middle[k];
-            off - (off / self.size[k]).round() * self.size[k]
-        });
+        let mut at = line.origin + line.direction * distance - piece.from;
+        for k in 0..2 {
+            at[k] -= ((at[k] - 0.5 * piece.along[k]) / self.size[k]).round() * self.size[k];
+        }
+        // Between the planes that cut the yarn upright at both nodes, so that one piece goes over
+        // into the next without a step.
+        let before = at.dot(&piece.ways[0]);
+        let after = (piece.along - at).dot(&piece.ways[1]);
+        let span = before + after;
+        let share = if span > 1e-12 { (before / span).clamp(0.0, 1.0) } else { 0.5 };
+        let off = at - piece.along * share;
         let square = piece.stretch * piece.stretch;
-        let normal = Vector::new(off[0], off[1], (at.z - middle.z) * square);
+        let normal = Vector::new(off.x, off.y, off.z * square);
         let way = piece.ways[0] * (1.0 - share) + piece.ways[1] * share;
         let way = way.try_normalize(1e-12).unwrap_or_else(Vector::x);
         // The joints of pieces are smoothed: the normal stands on the bent way of the yarn.
@@ -257,10 +262,10 @@ impl Bodies {
 }
 
 impl Piece {
-    /// Where a ray meets it: the distance, and the place along it as a share. (Ray and capsule, as
+    /// The distance at which a ray meets it. (Ray and capsule, as
     /// in C. Ericson, "Real-Time Collision Detection", 2005, section 5.3.7.)
     #[inline(always)]
-    fn meet(&self, origin: &Vector, direction: &Vector) -> Option<(f32, f32)> {
+    fn meet(&self, origin: &Vector, direction: &Vector) -> Option<f32> {
         let s = self.stretch;
         let (ox, oy, oz) =
             (origin.x - self.from.x, origin.y - self.from.y, (origin.z - self.from.z) * s);
@@ -284,13 +289,12 @@ impl Piece {
             let distance = (-b - h.sqrt()) / a;
             let y = bo + distance * bd;
             if y >= 0.0 && y <= bb {
-                return Some((distance, y / bb));
+                return Some(distance);
             }
-            let (ox, oy, oz, share) =
-                if y < 0.0 { (ox, oy, oz, 0.0) } else { (ox - bx, oy - by, oz - bz, 1.0) };
+            let (ox, oy, oz) = if y < 0.0 { (ox, oy, oz) } else { (ox - bx, oy - by, oz - bz) };
             let b = ox * dx + oy * dy + oz * dz;
             let h = b * b - dd * (ox * ox + oy * oy + oz * oz - rr);
-            return (h >= 0.0).then(|| ((-b - h.sqrt()) / dd, share));
+            return (h >= 0.0).then(|| (-b - h.sqrt()) / dd);
         }
         None
     }

@@ -84,12 +84,8 @@ impl Place<'_> {
             noise::plane(seed, turned * AROUND as f32, share * cells as f32, [AROUND, cells]);
         let coarse = AROUND / 3;
         let long = cells / 2;
-        let broad = noise::plane(
-            seed ^ 0xf1b,
-            turned * coarse as f32,
-            share * long as f32,
-            [coarse, long],
-        );
+        let broad =
+            noise::plane(seed ^ 0xf1b, turned * coarse as f32, share * long as f32, [coarse, long]);
         0.7 * fine + 0.4 * broad
     }
 
