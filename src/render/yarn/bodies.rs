@@ -215,7 +215,7 @@ impl Bodies {
         let before = at.dot(&piece.ways[0]);
         let after = (piece.along - at).dot(&piece.ways[1]);
         let span = before + after;
-        let share = if span > 1e-12 { (before / span).clamp(0.0, 1.0) } else { 0.5 };
+        let share = if span > 1e-12 { (before / span).clamp(-0.6, 1.6) } else { 0.5 };
         let off = at - piece.along * share;
         let square = piece.stretch * piece.stretch;
         let normal = Vector::new(off.x, off.y, off.z * square);
