@@ -93,10 +93,9 @@ impl Look {
                 layers.push(Layer::new(model, share, gloss.tint, floats == 1));
             }
             Finish::Velvet if !back => {
-                let gloss = Gloss::of(fibres[0]);
-                let pile = Ashikhmin::velvet(PILE, 0.9);
+                let pile = Ashikhmin::velvet(PILE, 0.75);
                 let model = Model::Ashikhmin(Box::new(pile));
-                layers.push(Layer::new(model, 1.0, gloss.tint.max(0.8), false));
+                layers.push(Layer::new(model, 1.0, PILE_TINT, false));
             }
             finish => {
                 let left = match finish {
@@ -265,7 +264,10 @@ const FILAMENTS: f32 = 2.6;
 
 /// Reflectance of the sides of a pile: light that grazes upright fibres meets one after another,
 /// and most of it is sent on.
-const PILE: f32 = 0.8;
+const PILE: f32 = 0.55;
+
+/// Light that comes out of a pile has gone through dyed fibres.
+const PILE_TINT: f32 = 0.95;
 
 impl Layer {
     fn new(model: Model, share: f32, tint: f32, across: bool) -> Self {

@@ -237,7 +237,11 @@ fn every_way_of_shading_shows_the_cloth_and_gouraud_is_smooth_between_corners() 
 #[test]
 fn threads_show_from_near_by_and_leave_the_light_as_it_was() {
     // Seen through 8 mm the threads, 0.4 mm apart, are 10 pixels wide.
-    let dressed = sheet_in_the_air(studio::woven(RED));
+    let mut atlas = studio::woven(RED);
+    for pixel in atlas.pixels.chunks_mut(4) {
+        pixel[..3].copy_from_slice(&RED);
+    }
+    let dressed = sheet_in_the_air(atlas);
     let near = |shading: Option<Shading>, field: f64| {
         let picture =
             Picture { size: [200, 200], shading, field: Some(field), ..Picture::default() };
@@ -257,14 +261,14 @@ fn threads_show_from_near_by_and_leave_the_light_as_it_was() {
     let ((lit, deep), (even, _)) = (spread(&yarns), spread(&flat));
     assert!(deep > 12.0, "threads have sides: {deep}");
     // What yarns take from each other and what shows between them is a tenth or so.
-    assert!((lit / even - 1.0).abs() < 0.15, "{lit} against {even}");
+    assert!((lit / even - 1.0).abs() < 0.12, "{lit} against {even}");
     // Nothing jumps where the one goes over into the other.
     let mut last: Option<f32> = None;
     for step in 0..7 {
         let image = near(None, 16e-3 * 1.25_f64.powi(step));
         let level = mean(&image, [0.2, 0.2], [0.8, 0.8], 0);
         if let Some(last) = last {
-            assert!((level - last).abs() < 6.0, "{last}, then {level}");
+            assert!((level - last).abs() < 8.0, "{last}, then {level}");
         }
         last = Some(level);
     }
