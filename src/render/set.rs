@@ -101,7 +101,9 @@ impl<'a> Set<'a> {
                         }
                     };
                     let own = face.corners.iter().all(|corner| *corner < figure.cloth);
-                    match near.yarns(coat).filter(|_| own && shown) {
+                    match near.yarns(coat).filter(|_| shown) {
+                        // Between yarns the bead of an edge would be seen from within.
+                        Some(_) if !own => {}
                         Some(yarns) => {
                             for side in [1, -1] {
                                 let away = f32::from(side) * yarns.bodies.height;
