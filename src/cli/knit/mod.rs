@@ -96,5 +96,5 @@ fn draw(path: &Path, source: &Source) -> Result<(), Stop> {
         let text = paper::svg(&sheet);
         return output::write(path, |out| out.write_all(text.as_bytes()));
     }
-    output::write_png(path, &paper::paint(&sheet))
+    output::write_png(path, paper::paint(&sheet))
 }

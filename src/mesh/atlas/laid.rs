@@ -45,8 +45,8 @@ impl Laid {
                 vec![woven::look(warp, repeat.size[1]), woven::look(weft, repeat.size[0])],
             ),
             Structure::Knitted { knit, yarn } => (
-                knitted::strands(knit, yarn, threads, &grid),
-                vec![knitted::look(knit, yarn, threads[0])],
+                knitted::strands(knit, &knit.loops(), yarn, threads, &grid),
+                knitted::looks(knit, yarn, threads[0]),
             ),
         };
         let scale = [repeat.size[0] / grid.width as f64, repeat.size[1] / grid.height as f64]
@@ -59,7 +59,8 @@ impl Laid {
                     half: node.half * scale[0],
                     along: node.along * scale[0],
                 };
-                Strand { nodes: strand.nodes.iter().map(place).collect(), ..strand }
+                let nodes = strand.nodes.iter().map(place).collect();
+                Strand { nodes, length: strand.length * scale[0], ..strand }
             })
             .collect();
         Some(Laid { size: repeat.size, threads, strands, looks })

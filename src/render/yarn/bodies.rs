@@ -93,7 +93,7 @@ impl Bodies {
             begins: Vec::new(),
             list: Vec::new(),
             pieces,
-            lengths: laid.strands.iter().map(|s| s.nodes.last().map_or(1.0, |n| n.along)).collect(),
+            lengths: laid.strands.iter().map(|strand| strand.length).collect(),
             yarns: laid.strands.iter().map(|strand| strand.yarn).collect(),
             skins: laid.looks,
             height: height * 1.02,
@@ -308,12 +308,21 @@ fn add(strand: &Strand, number: u32, size: [f32; 2], pieces: &mut Vec<Piece>) {
         return;
     }
     let place = |k: usize| Vector::from(nodes[k].at);
+    // A whole strand goes on in the next tile as it began in this one; a stretch of a course ends
+    // where the yarn of the next colour takes over.
+    let span = place(count - 1) - place(0);
+    let whole = (0..2).any(|axis| (span[axis].abs() - size[axis]).abs() < 1e-3 * size[axis]);
     let way = |k: usize| {
-        // The strand goes on in the next tile as it began in this one.
-        let before =
-            if k == 0 { place(count - 2) - (place(count - 1) - place(0)) } else { place(k - 1) };
-        let after =
-            if k + 1 == count { place(1) + (place(count - 1) - place(0)) } else { place(k + 1) };
+        let before = match k {
+            0 if whole => place(count - 2) - span,
+            0 => place(0),
+            _ => place(k - 1),
+        };
+        let after = match k + 1 {
+            next if next < count => place(next),
+            _ if whole => place(1) + span,
+            _ => place(k),
+        };
         (after - before).try_normalize(1e-12).unwrap_or_else(Vector::x)
     };
     let stretch = 1.0 / strand.flatness.max(0.05);
@@ -440,12 +449,7 @@ mod tests {
     #[test]
     fn a_face_loop_shows_its_legs_and_a_back_loop_its_heads() {
         let legs = |stitch: Stitch, side: f32| {
-            let knit = Knit {
-                name: "knit".into(),
-                rows: vec![vec![stitch]],
-                wales: 200.0,
-                courses: 280.0,
-            };
+            let knit = Knit::of_loops("knit", vec![vec![stitch]], 200.0, 280.0).expect("a knit");
             let cloth =
                 fabric(|yarn| Structure::Knitted { knit, yarn: Yarn { diameter: 1.2e-3, ..yarn } });
             let bodies = Bodies::of(&cloth).expect("a small repeat");
