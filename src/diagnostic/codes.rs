@@ -80,6 +80,7 @@ pub const CODES: &[Code] = &[
     code("E0507", "seams that cross each other"),
     code("E0601", "rows of unequal length"),
     code("E0602", "an unknown symbol in a chart"),
+    code("E0603", "stitches that do not add up"),
     code("E0604", "no such satin"),
     code("E0605", "a property of a fabric given twice"),
     code("E0606", "a thread or shaft number that does not exist"),
