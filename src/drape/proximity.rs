@@ -61,7 +61,7 @@ impl Pair {
 
     /// The share of a movement from x to x + dx that can be made while the distance stays above
     /// `keep` times what it is at the start; conservative advancement (Li, Kaufman and
-    /// Jiang 2021, additive form). 1 if all of it can. Features within [`FLOOR`] of each other come no
+    /// Jiang 2021, additive form). 1 if all of it can. Features within a micrometre of each other come no
     /// nearer at all: by a share of the distance in every step they would come to lie in each other,
     /// and rounding would decide where they go from there.
     pub fn advance(&self, x: &[V; 4], dx: &[V; 4], keep: f64) -> f64 {
