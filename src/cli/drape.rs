@@ -155,7 +155,13 @@ pub(super) fn verdict(project: &Project, garment: &Garment, draped: &Draped) -> 
         .chain(found)
         .map(|(code, what)| {
             let message = format!("the drape did not reach what the file asks: {what}");
-            Diagnostic::new(code, message).at(garment.span, "draped here")
+            let help = match code {
+                "E0802" => "give it more ease, or place its pieces with a wider `gap`",
+                "E0808" => "place its pieces with a wider `gap`, or take a finer `grid`",
+                "E0809" => "hold it with `attach`, `pin` or `elastic`",
+                _ => "place what is sewn together nearer, or give it longer: `within`",
+            };
+            Diagnostic::new(code, message).at(garment.span, "draped here").help(help)
         })
         .collect();
     project.tell(&told);

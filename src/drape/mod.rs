@@ -359,7 +359,7 @@ pub fn dress(
         };
         reason.get_or_insert(format!(
             "the cloth passes through itself: {cuts} pairs of faces cut each other, most of them \
-             {most}; a wider `gap` where they are placed or a finer `grid` may help"
+             {most}"
         ));
     }
     stats.verdict = if stats.deepest_penetration > 1e-3 {

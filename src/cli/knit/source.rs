@@ -193,7 +193,9 @@ impl Charted {
         let colour = self.yarn.as_ref().map(|yarn| yarn.colour);
         panel(&self.chart, &self.title, colour).map_err(|error| {
             let message = format!("`{}` cannot be knitted by machine: {error}", self.title);
-            Diagnostic::new("E0651", message).at(self.at, "")
+            Diagnostic::new("E0651", message)
+                .at(self.at, "its chart")
+                .help("change the chart there, or draw it with --chart for knitting by hand")
         })
     }
 }

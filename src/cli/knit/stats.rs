@@ -2,7 +2,7 @@
 
 use super::source::{Charted, Programmed, Source};
 use crate::textile::Colour;
-use crate::textile::knit::{Chart, Symbol};
+use crate::textile::knit::{Chart, Symbol, loop_length};
 use crate::textile::knitout::{self, Outcome};
 use crate::units::{length, trimmed};
 use serde_json::{Value, json};
@@ -37,10 +37,8 @@ struct Need {
 
 impl Need {
     fn of(it: &Charted) -> Option<Need> {
-        let [wales, courses] = it.gauge?;
+        let each = loop_length(it.gauge?);
         let worked = worked(&it.chart);
-        // Munden's k, as for the cloth itself.
-        let each = (21.6 / (wales * courses)).sqrt();
         Some(Need { worked, each, count: it.yarn.as_ref().map(|yarn| yarn.count) })
     }
 

@@ -117,11 +117,16 @@ impl Knit {
             .collect()
     }
 
-    /// Length of yarn in one stitch of relaxed plain knitting, m: the square root of k over the
-    /// stitch density, k = 21.6 (Munden 1959, wet relaxed).
+    /// Length of yarn in one of its stitches, m; see [`loop_length`].
     pub fn loop_length(&self) -> f64 {
-        (21.6 / (self.wales * self.courses)).sqrt()
+        loop_length([self.wales, self.courses])
     }
+}
+
+/// Length of yarn in one stitch of relaxed plain knitting of so many wales and courses per metre, m:
+/// the square root of k over the stitch density, k = 21.6 (Munden 1959, wet relaxed).
+pub fn loop_length([wales, courses]: [f64; 2]) -> f64 {
+    (21.6 / (wales * courses)).sqrt()
 }
 
 #[cfg(test)]
